@@ -1,0 +1,5 @@
+//! Runtime of gaitc: integrates compiled hybrid models, linearises their return maps exactly, finds and optimises gaits.
+
+pub mod model;
+pub mod return_map;
+pub mod scalar;

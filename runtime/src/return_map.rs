@@ -1,0 +1,206 @@
+//! The object-safe return map: what optimizer, studies and command line see of a model, whatever its sizes.
+//!
+//! The map is P = symmetry o R o embed (R alone when the spec has no symmetry), from section coordinates to section
+//! coordinates, with memory restarted at its initial value; R flows from just after the section's transition to just
+//! after the next one.
+
+use crate::model::ModelInfo;
+use nalgebra::{DMatrix, DVector};
+use thiserror::Error;
+
+/// How accurately and how far to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Relative tolerance of the local error.
+    pub relative: f64,
+    /// Absolute tolerance in SI units.
+    pub absolute: f64,
+    /// Longest time of one map [s].
+    pub time_limit: f64,
+    /// Most steps of one map.
+    pub step_limit: usize,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self { relative: 1e-12, absolute: 1e-13, time_limit: 100.0, step_limit: 100_000 }
+    }
+}
+
+/// One evaluation of the return map.
+#[derive(Clone, Copy, Debug)]
+pub struct MapRequest<'a> {
+    /// Section coordinates z, in the order of `info().coordinates`, SI units.
+    pub coordinates: &'a [f64],
+    /// All parameters, in the order of `info().parameters`, SI units.
+    pub parameters: &'a [f64],
+    /// Initial memory, in the order of `info().memory`.
+    pub memory: &'a [f64],
+    /// How many maps to compose; at least 1. Memory restarts after each.
+    pub period: usize,
+    /// What to differentiate.
+    pub sensitivity: Sensitivity<'a>,
+    /// Whether functionals and measures are wanted.
+    pub measures: bool,
+    /// Accuracy.
+    pub accuracy: Accuracy,
+}
+
+/// What to differentiate a map with respect to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sensitivity<'a> {
+    /// Nothing.
+    None,
+    /// The section coordinates.
+    Coordinates,
+    /// The section coordinates, then these parameters (by index).
+    CoordinatesAndParameters(&'a [usize]),
+}
+
+/// A completed map. With d = number of section coordinates and c = number of sensitivity columns
+/// (d, then the chosen parameters; 0 for `Sensitivity::None`).
+#[derive(Clone, Debug)]
+pub struct MapResult {
+    /// P(z), length d.
+    pub coordinates: DVector<f64>,
+    /// Derivative of P(z), d x c.
+    pub jacobian: DMatrix<f64>,
+    /// Full state just after the section's transition at the start of the map.
+    pub state: DVector<f64>,
+    /// Duration [s].
+    pub duration: f64,
+    /// Derivative of the duration, length c.
+    pub duration_gradient: DVector<f64>,
+    /// Measures, in the order of `info().measures`; empty unless asked for.
+    pub measures: DVector<f64>,
+    /// Derivative of the measures, measures x c; empty unless asked for.
+    pub measures_jacobian: DMatrix<f64>,
+    /// Transitions in order of time.
+    pub events: Vec<Event>,
+    /// Work done.
+    pub statistics: Statistics,
+    /// What the user has to know about the linearisation (grazing, ties).
+    pub warnings: Vec<Warning>,
+}
+
+/// A transition that fired.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Index into `info().transitions`.
+    pub transition: usize,
+    /// Time since the start of the map [s].
+    pub time: f64,
+    /// Time derivative of the guard along the flow just before it fired, in the guard's unit per second.
+    pub transversality: f64,
+}
+
+/// Something that limits what a completed map means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Warning {
+    /// The flow only touched this transition's guard, or crossed it so flatly that the linearisation is not valid.
+    Grazing {
+        /// Index into `info().transitions`.
+        transition: usize,
+        /// When [s].
+        time: f64,
+        /// Time derivative of the guard there.
+        transversality: f64,
+    },
+    /// Two transitions fired at the same time to rounding; the first in the spec's order was taken.
+    Tie {
+        /// The one that was taken.
+        taken: usize,
+        /// The other.
+        other: usize,
+        /// When [s].
+        time: f64,
+    },
+}
+
+/// Work done by one evaluation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of the flow.
+    pub evaluations: usize,
+}
+
+/// A map that has no next section crossing, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// Why.
+    pub reason: StopReason,
+    /// When [s].
+    pub time: f64,
+    /// The state there.
+    pub state: Vec<f64>,
+}
+
+/// Why a run has no next step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopReason {
+    /// No transition fired within the time limit.
+    NoEvent,
+    /// More steps than allowed.
+    StepLimit,
+    /// The error control asks for a step below rounding.
+    StepTooSmall,
+    /// A value is not finite: the run left the domain where the model is defined.
+    NotFinite,
+    /// Transitions pile up in time (or a step takes no time at all).
+    Zeno,
+}
+
+/// What a map ended with; both are results, not errors.
+#[derive(Clone, Debug)]
+pub enum MapOutcome {
+    /// The section was reached.
+    Completed(Box<MapResult>),
+    /// It was not.
+    Stopped(Stop),
+}
+
+/// A wrong request.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum RequestError {
+    /// A slice has the wrong length.
+    #[error("{what}: expected {expected} values, got {got}")]
+    Length {
+        /// Which.
+        what: &'static str,
+        /// Expected length.
+        expected: usize,
+        /// Length given.
+        got: usize,
+    },
+    /// An input is not a finite number.
+    #[error("{what} number {index} is not a finite number")]
+    NotFinite {
+        /// Which.
+        what: &'static str,
+        /// Index of the value.
+        index: usize,
+    },
+    /// An accuracy setting makes no sense.
+    #[error("{0}")]
+    Accuracy(&'static str),
+    /// The model has no section, so it has no return map.
+    #[error("model `{0}` has no [section], so it has no return map")]
+    NoSection(&'static str),
+}
+
+/// A model's return map with sizes erased.
+pub trait ReturnMap: Send + Sync {
+    /// Names, units and structure.
+    fn info(&self) -> &'static ModelInfo;
+
+    /// Evaluates the map.
+    ///
+    /// # Errors
+    /// When the request itself is wrong; a map without a next section crossing is `Ok(MapOutcome::Stopped)`.
+    fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError>;
+}

@@ -1,0 +1,124 @@
+//! The numbers that generated code computes with: `f64` today, SIMD lanes and dual numbers by the same code.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number (or several, lane by lane). Generated code uses nothing else.
+pub trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Send
+    + Sync
+    + 'static
+{
+    /// The answer of a comparison: one `bool`, or one a lane.
+    type Mask: Copy + Send + Sync + 'static;
+
+    /// The same constant in every lane.
+    fn constant(value: f64) -> Self;
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Inverse sine in radians.
+    fn asin(self) -> Self;
+    /// Inverse cosine in radians.
+    fn acos(self) -> Self;
+    /// Inverse tangent in radians.
+    fn atan(self) -> Self;
+    /// Angle of the point (`x`, `self`) in radians.
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Inverse hyperbolic sine.
+    fn asinh(self) -> Self;
+    /// Inverse hyperbolic cosine.
+    fn acosh(self) -> Self;
+    /// Inverse hyperbolic tangent.
+    fn atanh(self) -> Self;
+    /// Exponential.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Square root; NaN for negative numbers.
+    fn sqrt(self) -> Self;
+    /// Power with a real exponent; negative bases with integer exponents are fine.
+    fn pow(self, exponent: Self) -> Self;
+    /// -1, 0 or 1.
+    fn signum(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// `self < other`, false where either is NaN.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `self <= other`, false where either is NaN.
+    fn less_equal(self, other: Self) -> Self::Mask;
+    /// The opposite.
+    fn not(mask: Self::Mask) -> Self::Mask;
+    /// Both.
+    fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// At least one.
+    fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// `then` where the mask holds, else `otherwise`. Both are evaluated; the one not chosen may be NaN.
+    fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
+}
+
+macro_rules! forward {
+    ($($name:ident),*) => { $(#[inline] fn $name(self) -> Self { f64::$name(self) })* };
+}
+
+impl Scalar for f64 {
+    type Mask = bool;
+
+    forward!(sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, sqrt, abs);
+
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        f64::atan2(self, x)
+    }
+    #[inline]
+    fn pow(self, exponent: Self) -> Self {
+        f64::powf(self, exponent)
+    }
+    #[inline]
+    fn signum(self) -> Self {
+        // f64::signum gives 1 for +0.
+        if self == 0.0 { 0.0 } else { f64::signum(self) }
+    }
+    #[inline]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline]
+    fn less_equal(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline]
+    fn not(mask: bool) -> bool {
+        !mask
+    }
+    #[inline]
+    fn and(a: bool, b: bool) -> bool {
+        a & b
+    }
+    #[inline]
+    fn or(a: bool, b: bool) -> bool {
+        a | b
+    }
+    #[inline]
+    fn select(mask: bool, then: Self, otherwise: Self) -> Self {
+        if mask { then } else { otherwise }
+    }
+}

@@ -1,0 +1,2 @@
+//! The gaitc command.
+fn main() {}
