@@ -166,12 +166,7 @@ pub trait Model<const N: usize, const P: usize, const Q: usize>: Copy + Default 
     fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
 
     /// Observable with all first derivatives.
-    fn observable_gradient<S: Scalar>(
-        index: usize,
-        mode: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Gradient<S, N, P>;
+    fn observable_gradient<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P>;
 
     /// Measures (`out`) from the values of the functionals, in the order of [`ModelInfo::functionals`].
     fn measures<S: Scalar>(functionals: &[S], p: &[S; P], out: &mut [S]);
