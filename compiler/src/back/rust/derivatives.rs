@@ -119,7 +119,8 @@ fn embed(context: &Context<'_>, coordinates: &[usize]) -> Result<TokenStream, Em
     let body = Body::new(context, program);
     let (n, d, p) = (model.states.len(), coordinates.len(), model.parameters.len());
     let z = coordinates.iter().map(|&i| Input::Symbol(Symbol::State(i)));
-    let otherwise = quote!(return ([nan_state(); #d], [nan_state(); PARAMETERS]));
+    let width = text::count(d);
+    let otherwise = quote!(return ([nan_state(); #width], [nan_state(); PARAMETERS]));
     let bind_z = body.bind_slice(z, &quote!(z), &otherwise);
     let parameters = parameters(model);
     let name_p = if body.uses_any(&parameters) { quote!(p) } else { quote!(_p) };
@@ -135,7 +136,7 @@ fn embed(context: &Context<'_>, coordinates: &[usize]) -> Result<TokenStream, Em
         fn d_embed<S: scalar::Scalar>(
             z: &[S],
             #name_p: &[S; PARAMETERS],
-        ) -> ([[S; STATES]; #d], [[S; STATES]; PARAMETERS]) {
+        ) -> ([[S; STATES]; #width], [[S; STATES]; PARAMETERS]) {
             #bind_z
             #bind_p
             #statements
@@ -181,8 +182,8 @@ fn measures(context: &Context<'_>) -> Result<TokenStream, EmitError> {
     let program = context.program(Quantity::Measures, Columns::Functionals)?;
     let body = Body::new(context, program);
     let functionals = (0..f).map(|i| Input::Symbol(Symbol::Functional(i)));
-    let entries = count * f;
-    let otherwise = quote!(return ([nan(); #entries], [[nan(); PARAMETERS]; #count]));
+    let (entries, rows) = (text::count(count * f), text::count(count));
+    let otherwise = quote!(return ([nan(); #entries], [[nan(); PARAMETERS]; #rows]));
     let bind_functionals = body.bind_slice(functionals, &quote!(functionals), &otherwise);
     let parameters = parameters(model);
     let name_p = if body.uses_any(&parameters) { quote!(p) } else { quote!(_p) };
@@ -206,7 +207,7 @@ fn measures(context: &Context<'_>) -> Result<TokenStream, EmitError> {
         fn d_measures<S: scalar::Scalar>(
             functionals: &[S],
             #name_p: &[S; PARAMETERS],
-        ) -> ([S; #entries], [[S; PARAMETERS]; #count]) {
+        ) -> ([S; #entries], [[S; PARAMETERS]; #rows]) {
             #bind_functionals
             #bind_p
             #statements

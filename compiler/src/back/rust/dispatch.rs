@@ -2,7 +2,7 @@
 //! that it is asked for, and answers NaN to an index out of range.
 
 use super::values::observable_name;
-use super::{Context, EmitError, names};
+use super::{Context, EmitError, names, text};
 use crate::casadi::functions::observable_modes;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -31,7 +31,10 @@ pub(super) fn implementation(context: &Context<'_>) -> Result<TokenStream, EmitE
 
 /// `index => call`, and NaN for the rest.
 fn dispatch(index: &TokenStream, names: &[Ident], arguments: &TokenStream, otherwise: &TokenStream) -> TokenStream {
-    let arms = names.iter().enumerate().map(|(i, name)| quote!(#i => #name(#arguments),));
+    let arms = names.iter().enumerate().map(|(i, name)| {
+        let i = text::count(i);
+        quote!(#i => #name(#arguments),)
+    });
     quote!(match #index { #(#arms)* _ => #otherwise })
 }
 
@@ -167,11 +170,12 @@ fn events(context: &Context<'_>) -> TokenStream {
 
 fn when(context: &Context<'_>) -> TokenStream {
     let arms = context.model().transitions.iter().enumerate().map(|(i, transition)| {
+        let number = text::count(i);
         if transition.when.is_some() {
             let name = names::function("when", &transition.name);
-            quote!(#i => #name(x, env),)
+            quote!(#number => #name(x, env),)
         } else {
-            quote!(#i => S::constant(1.0),)
+            quote!(#number => S::constant(1.0),)
         }
     });
     let unused = context.model().transitions.iter().all(|t| t.when.is_none()).then(|| quote!(let _ = (x, env);));
@@ -184,7 +188,7 @@ fn when(context: &Context<'_>) -> TokenStream {
 }
 
 fn reset(context: &Context<'_>) -> TokenStream {
-    let m = context.model().memory.len();
+    let m = text::count(context.model().memory.len());
     let names = transition_names(context, "reset");
     let chosen = dispatch(&quote!(transition), &names, &quote!(x, env), &quote!((nan_state(), [nan(); #m])));
     let chosen = if names.is_empty() { quote!((nan_state(), [nan(); #m])) } else { chosen };
@@ -209,7 +213,7 @@ fn reset(context: &Context<'_>) -> TokenStream {
 
 fn section(context: &Context<'_>) -> TokenStream {
     let section = context.model().section.as_ref();
-    let d = section.map_or(0, |s| s.coordinates.len());
+    let d = text::count(section.map_or(0, |s| s.coordinates.len()));
     let (embed, d_embed) = match section {
         Some(_) => (quote!(embed(z, p)), quote!(d_embed(z, p))),
         None => (
@@ -278,12 +282,13 @@ fn identity_jacobian(context: &Context<'_>) -> TokenStream {
 
 fn observables(context: &Context<'_>) -> TokenStream {
     let arms = |prefix: &str| -> Vec<TokenStream> {
-        let modes: Vec<usize> = (0..context.model().modes.len()).collect();
+        let modes: Vec<_> = (0..context.model().modes.len()).map(text::count).collect();
         (0..context.validated.facts().observables.len())
             .flat_map(|i| observable_modes(context.validated, i).into_iter().map(move |mode| (i, mode)))
             .map(|(i, mode)| {
                 let (name, _) = observable_name(context.model(), prefix, i, mode);
-                match mode {
+                let i = text::count(i);
+                match mode.map(text::count) {
                     Some(mode) => quote!((#i, #mode) => #name(x, env),),
                     None => quote!((#i, #(#modes)|*) => #name(x, env),),
                 }
@@ -312,8 +317,8 @@ fn observables(context: &Context<'_>) -> TokenStream {
 }
 
 fn measures(context: &Context<'_>) -> TokenStream {
-    let count = context.model().measures.len();
-    let entries = count * context.model().functionals.len();
+    let entries = text::count(context.model().measures.len() * context.model().functionals.len());
+    let count = text::count(context.model().measures.len());
     quote! {
         fn measures<S: scalar::Scalar>(functionals: &[S], p: &[S; PARAMETERS], out: &mut [S]) {
             if out.len() != #count {

@@ -1,6 +1,6 @@
 //! Names, units and structure of a model as a constant.
 
-use super::Context;
+use super::{Context, text};
 use crate::dimension::Dimension;
 use crate::ir::{Direction, FunctionalKind};
 use crate::valid::Reference;
@@ -18,16 +18,17 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
     let switches = model.switches.iter().map(|s| &s.text);
     let modes = model.modes.iter().zip(&facts.mode_switches).map(|(mode, switches)| {
         let name = &mode.name;
+        let switches = switches.iter().map(|&i| text::count(i));
         quote!(model::ModeInfo { name: #name, switches: &[#(#switches),*] })
     });
     let transitions = model.transitions.iter().map(|t| {
-        let (name, from, to, direction) = (&t.name, t.from, t.to, direction(t.direction));
+        let (name, from, to, direction) = (&t.name, text::count(t.from), text::count(t.to), direction(t.direction));
         quote!(model::TransitionInfo { name: #name, from: #from, to: #to, direction: model::Direction::#direction })
     });
-    let coordinates = model.section.iter().flat_map(|s| &s.coordinates);
+    let coordinates = model.section.iter().flat_map(|s| &s.coordinates).map(|&i| text::count(i));
     let after = match &model.section {
         Some(section) => {
-            let after = section.after;
+            let after = text::count(section.after);
             quote!(::core::option::Option::Some(#after))
         }
         None => quote!(::core::option::Option::None),
@@ -72,7 +73,7 @@ fn direction(direction: Direction) -> proc_macro2::Ident {
 
 fn functional(kind: FunctionalKind, reference: Reference) -> TokenStream {
     let index = match reference {
-        Reference::Integral(i) | Reference::Observable(i) => i,
+        Reference::Integral(i) | Reference::Observable(i) => text::count(i),
         Reference::None => return quote!(model::Functional::Duration),
     };
     match kind {

@@ -118,17 +118,18 @@ fn head(model: &Model) -> Result<String, EmitError> {
 fn preamble(context: &Context<'_>, runtime: &TokenStream) -> Vec<TokenStream> {
     let model = context.model();
     let (n, p, q) = (model.states.len(), model.parameters.len(), context.validated.facts().integrals.len());
+    let (states, parameters, integrals) = (text::count(n), text::count(p), text::count(q));
     let name = names::type_name(model);
     let doc = format!(" The compiled model `{}`: {n} states, {p} parameters, {q} time integrals.", model.name);
     vec![
         quote!(use #runtime::{model, scalar};),
         quote! {
             /// Number of states.
-            pub const STATES: usize = #n;
+            pub const STATES: usize = #states;
             /// Number of parameters.
-            pub const PARAMETERS: usize = #p;
+            pub const PARAMETERS: usize = #parameters;
             /// Number of time integrals.
-            pub const INTEGRALS: usize = #q;
+            pub const INTEGRALS: usize = #integrals;
         },
         quote! {
             #[doc = #doc]

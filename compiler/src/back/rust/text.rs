@@ -25,6 +25,11 @@ pub(super) fn number(value: f64) -> TokenStream {
     if value.is_sign_negative() { quote!(-#magnitude) } else { magnitude }
 }
 
+/// A number of things as a literal.
+pub(super) fn count(value: usize) -> Literal {
+    Literal::usize_unsuffixed(value)
+}
+
 /// Operation counts for people.
 pub(super) fn counts(counts: Counts) -> String {
     let parts: Vec<String> = [

@@ -220,6 +220,7 @@ fn reset(context: &Context<'_>, transition: usize, name: &str) -> Result<TokenSt
     let body = Body::new(context, program);
     let (n, m) = (context.model().states.len(), context.model().memory.len());
     let (state, memory) = (body.components(0..n), body.components(n..n + m));
+    let m = text::count(m);
     let function = StateFunction {
         name: &names::function("reset", name),
         doc: vec![
@@ -293,11 +294,16 @@ fn measures(context: &Context<'_>) -> Result<TokenStream, EmitError> {
     let program = context.program(Quantity::Measures, Columns::None)?;
     let body = Body::new(context, program);
     let functionals = (0..model.functionals.len()).map(|i| Input::Symbol(Symbol::Functional(i)));
-    let bind_functionals = body.bind_slice(functionals, &quote!(functionals), &quote!(return [nan(); #count]));
+    let otherwise = {
+        let count = text::count(count);
+        quote!(return [nan(); #count])
+    };
+    let bind_functionals = body.bind_slice(functionals, &quote!(functionals), &otherwise);
     let parameters = parameters(model);
     let p = if body.uses_any(&parameters) { quote!(p) } else { quote!(_p) };
     let bind_p = body.bind_array(&parameters, &quote!(p));
     let (statements, result) = (body.statements(), body.components(0..count));
+    let count = text::count(count);
     let list: Vec<String> = model.measures.iter().map(|m| format!("{} [{}]", m.name, m.dimension)).collect();
     let doc = text::doc(&[
         "Measures from the values of the functionals.".to_owned(),
