@@ -146,8 +146,8 @@ fn holds(problem: &Subproblem<'_>, step: &Step, active: &[Active]) -> bool {
     let m = &step.multipliers;
     let sign = -1e-9 * (1.0 + m.largest());
     let c = problem.inequality * &step.s + &problem.c;
-    let inside = (0..step.s.len())
-        .all(|j| step.s[j] >= problem.lower[j] - slack && step.s[j] <= problem.upper[j] + slack);
+    let inside =
+        (0..step.s.len()).all(|j| step.s[j] >= problem.lower[j] - slack && step.s[j] <= problem.upper[j] + slack);
     let violated = |i: usize| m.inequality[i] >= problem.penalty;
     let rows = (0..c.len()).all(|i| m.inequality[i] >= sign && (c[i] >= -slack || violated(i)));
     let signs = m.low.iter().chain(m.high.iter()).all(|&y| y >= sign);

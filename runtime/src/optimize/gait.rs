@@ -119,13 +119,11 @@ fn descend(
 }
 
 /// Follows a gait from one set of parameters to another, halving the way on failure; predicts along the secant.
-pub(super) fn follow(
-    problem: &Problem<'_>,
-    from: (&[f64], &[f64]),
-    to: &[f64],
-) -> Result<Vec<f64>, NoGait> {
+pub(super) fn follow(problem: &Problem<'_>, from: (&[f64], &[f64]), to: &[f64]) -> Result<Vec<f64>, NoGait> {
     let (start, gait) = from;
-    let between = |t: f64| -> Vec<f64> { start.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect() };
+    let between = |t: f64| -> Vec<f64> {
+        start.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
+    };
     let (mut t, mut stride) = (0.0, 1.0);
     let mut z = gait.to_vec();
     let mut slope = vec![0.0; z.len()];

@@ -15,9 +15,8 @@ fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
 }
 
 fn matrix() -> impl Strategy<Value = DMatrix<f64>> {
-    (1usize..=7).prop_flat_map(|n| {
-        proptest::collection::vec(-1.0..1.0f64, n * n).prop_map(move |v| DMatrix::from_vec(n, n, v))
-    })
+    (1usize..=7)
+        .prop_flat_map(|n| proptest::collection::vec(-1.0..1.0f64, n * n).prop_map(move |v| DMatrix::from_vec(n, n, v)))
 }
 
 proptest! {

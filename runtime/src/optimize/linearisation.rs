@@ -76,7 +76,8 @@ impl Program<'_> {
         let mut h = DMatrix::zeros(d, self.len());
         for i in 0..d {
             for j in 0..self.variables.free.len() + d {
-                h[(i, j)] = point.map.jacobian[(i, self.column(j))] * self.variables.unit(j) / self.variables.nominal[i];
+                h[(i, j)] =
+                    point.map.jacobian[(i, self.column(j))] * self.variables.unit(j) / self.variables.nominal[i];
             }
             h[(i, self.variables.section_at() + i)] -= 1.0;
         }

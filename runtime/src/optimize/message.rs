@@ -19,7 +19,9 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
             "no gait near here meets all constraints: {detail}; relax that constraint, widen the ranges, or try more starts"
         ),
         Status::NoGait => no_gait(detail),
-        Status::Unbounded => "the objective improves without limit; bound it with a constraint or narrow the ranges".to_owned(),
+        Status::Unbounded => {
+            "the objective improves without limit; bound it with a constraint or narrow the ranges".to_owned()
+        }
         Status::IterationLimit => format!(
             "no optimum within {} iterations (KKT residual {:.1e}); allow more iterations or start closer",
             solution.iterations, solution.kkt_residual

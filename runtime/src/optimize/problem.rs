@@ -185,7 +185,9 @@ pub enum ProblemError {
     #[error("the spectral radius can only be minimised; write `minimize` instead of `maximize`")]
     MaximizeSpectralRadius,
     /// A bound on the spectral radius that nothing can meet with a margin.
-    #[error("constraint `{name}`: the bound {bound} on the spectral radius is not positive; write a number above 0, such as 0.95")]
+    #[error(
+        "constraint `{name}`: the bound {bound} on the spectral radius is not positive; write a number above 0, such as 0.95"
+    )]
     SpectralBound {
         /// The constraint.
         name: String,

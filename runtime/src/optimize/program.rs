@@ -4,10 +4,10 @@
 //! all first derivatives except those of the Jacobian's entries (module `jacobian_derivative`).
 
 use super::characteristic::Characteristic;
+use super::eigenvalues::spectral_radius;
 use super::jury;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 use super::variables::Variables;
-use super::eigenvalues::spectral_radius;
 use crate::return_map::{MapOutcome, MapRequest, MapResult, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
 
@@ -198,7 +198,13 @@ impl<'a> Program<'a> {
     }
 
     /// An expression's value, checked: right lengths, finite.
-    pub(super) fn value(&self, what: &str, e: &dyn Expression, map: &MapResult, parameters: &[f64]) -> Result<Value, Failure> {
+    pub(super) fn value(
+        &self,
+        what: &str,
+        e: &dyn Expression,
+        map: &MapResult,
+        parameters: &[f64],
+    ) -> Result<Value, Failure> {
         let value = e.evaluate(map.measures.as_slice(), parameters);
         self.problem.check_value(what, &value).map_err(Failure::Wrong)?;
         if value.value.is_finite() { Ok(value) } else { Err(Failure::NotFinite(what.to_owned())) }
@@ -210,7 +216,13 @@ impl<'a> Program<'a> {
     }
 
     /// The bound on the spectral radius in units of its reference.
-    pub(super) fn radius(&self, of: Option<usize>, u: &DVector<f64>, map: &MapResult, p: &[f64]) -> Result<Value, Failure> {
+    pub(super) fn radius(
+        &self,
+        of: Option<usize>,
+        u: &DVector<f64>,
+        map: &MapResult,
+        p: &[f64],
+    ) -> Result<Value, Failure> {
         let info = self.problem.map.info();
         let constant = |value| Value {
             value,

@@ -126,7 +126,8 @@ impl Search<'_, '_> {
             return Ok(Progress::Ended(End::Converged));
         }
         let problem = self.subproblem(&lower, &upper);
-        let promised = self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
+        let promised =
+            self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
         if promised <= 1e-15 * (1.0 + self.point.f.abs()) || self.radius < SMALLEST_RADIUS {
             return Ok(Progress::Ended(End::Stalled));
         }

@@ -88,11 +88,7 @@ impl Variables {
     /// What one unit of unknown number i is in SI units.
     pub(super) fn unit(&self, i: usize) -> f64 {
         let m = self.section_at();
-        if i < m {
-            self.free[i].range()
-        } else {
-            self.nominal.get(i - m).copied().or(self.epigraph).unwrap_or(1.0)
-        }
+        if i < m { self.free[i].range() } else { self.nominal.get(i - m).copied().or(self.epigraph).unwrap_or(1.0) }
     }
 }
 

@@ -8,8 +8,8 @@ use super::message;
 use super::problem::{Constraint, ConstraintKind, Objective, Problem, ProblemError};
 use super::program::{Failure, Point, Program, Row};
 use super::search::{End, Ended};
-use super::starts::Start;
 use super::solution::{Active, ActiveKind, Kink, Solution, Starts, Status};
+use super::starts::Start;
 use nalgebra::{Complex, DVector};
 
 /// Scaled multiplier below which a constraint does not limit anything.
@@ -71,7 +71,8 @@ fn polish(program: &Program<'_>, ended: &mut Ended) -> Result<(), ProblemError> 
     };
     let variables = &program.variables;
     // Another gait, far from the one that was searched for, is not a polish.
-    let moved = section.iter().zip(&ended.point.section).zip(&variables.nominal).any(|((a, b), s)| (a - b).abs() > 1e-6 * s);
+    let moved =
+        section.iter().zip(&ended.point.section).zip(&variables.nominal).any(|((a, b), s)| (a - b).abs() > 1e-6 * s);
     if moved && ended.end == End::Converged {
         return Ok(());
     }
@@ -168,10 +169,8 @@ fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
     let mut priced: Vec<(f64, Active)> = Vec::new();
     for (i, free) in program.variables.free.iter().enumerate() {
         let price = scale / free.range();
-        let bounds = [
-            (m.low[i], ActiveKind::LowerBound(free.parameter)),
-            (m.high[i], ActiveKind::UpperBound(free.parameter)),
-        ];
+        let bounds =
+            [(m.low[i], ActiveKind::LowerBound(free.parameter)), (m.high[i], ActiveKind::UpperBound(free.parameter))];
         priced.extend(bounds.map(|(scaled, kind)| (scaled, Active { kind, multiplier: scaled * price })));
     }
     for (i, constraint) in program.problem.constraints.iter().enumerate() {
