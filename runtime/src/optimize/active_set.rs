@@ -4,8 +4,10 @@
 //! smaller. Clarabel says which constraints are active; the KKT system of the quadratic model with these as equalities
 //! then gives the step and the multipliers exactly:
 //!
-//!     [ B  G' ] [  s ]   [ -(g + penalties of the violated rows) ]
-//!     [ G  0  ] [ -y ] = [ -(values of the active rows)           ]
+//! ```text
+//! [ B  G' ] [  s ]   [ -(g + penalties of the violated rows) ]
+//! [ G  0  ] [ -y ] = [ -(values of the active rows)           ]
+//! ```
 
 use super::subproblem::{Multipliers, Step, Subproblem};
 use nalgebra::{DMatrix, DVector};
@@ -38,12 +40,14 @@ pub(super) fn refine(problem: &Subproblem<'_>, step: &Step) -> Option<Step> {
             multipliers.inequality[i] = problem.penalty;
         }
     }
+    let mut s = s;
     for (row, &y) in active.iter().zip(y.iter()) {
         match *row {
             Active::Equality(i) => multipliers.equality[i] = y,
             Active::Inequality(i) => multipliers.inequality[i] = y,
-            Active::Low(i) => multipliers.low[i] = y,
-            Active::High(i) => multipliers.high[i] = y,
+            // Exactly onto the bound, not to rounding.
+            Active::Low(j) => (multipliers.low[j], s[j]) = (y, problem.lower[j]),
+            Active::High(j) => (multipliers.high[j], s[j]) = (y, problem.upper[j]),
         }
     }
     let refined = Step { s, multipliers };

@@ -1,10 +1,12 @@
 //! The gait optimizer: the best gait over parameters, subject to what must hold.
 //!
-//!     maximise or minimise   F(m(z, p), p)
-//!     over                   varied parameters p_j in [lower, upper], section coordinates z
-//!     subject to             P(z; p) = z
-//!                            margin_i(m(z, p), p) >= 0
-//!                            spectral_radius(dP/dz) <= r
+//! ```text
+//! maximise or minimise   F(m(z, p), p)
+//! over                   varied parameters p_j in [lower, upper], section coordinates z
+//! subject to             P(z; p) = z
+//!                        margin_i(m(z, p), p) >= 0
+//!                        spectral_radius(dP/dz) <= r
+//! ```
 //!
 //! P is the return map, m its measures. The method is sequential convex programming ([`solve`], module `search`) with
 //! exact first derivatives; stability enters through the Jury inequalities (module `jury`). An optimum is reported only

@@ -16,10 +16,12 @@ use nalgebra::{DMatrix, DVector};
 
 /// Largest penalty; beyond it the constraints count as not satisfiable together.
 const LARGEST_PENALTY: f64 = 1e9;
+/// Violation, relative to the radius, that Clarabel's tolerance leaves.
+const INTERIOR_POINT: f64 = 1e-7;
 const LARGEST_RADIUS: f64 = 4.0;
 const SMALLEST_RADIUS: f64 = 1e-13;
 /// Scaled objective below which it counts as unbounded.
-const UNBOUNDED: f64 = -1e9;
+const UNBOUNDED: f64 = -1e7;
 /// A search that cannot go on is still an optimum when its residuals are within these.
 const ACCEPTABLE: Kkt = Kkt { optimality: 1e-5, feasibility: 1e-9 };
 
@@ -61,6 +63,8 @@ struct Search<'p, 'a> {
     radius: f64,
     /// Inequalities are driven to this instead of 0, so that rounding does not leave them violated.
     margin: f64,
+    /// Steps left to bring inequalities that hold to the tolerance to hold strictly.
+    spare: usize,
 }
 
 /// What an iteration did.
@@ -83,7 +87,8 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         model: QuasiNewton::new(program.len()),
         penalty: 1.0,
         radius: settings.trust_radius,
-        margin: 2.0 * settings.feasibility,
+        margin: 0.5 * settings.feasibility,
+        spare: 3,
     };
     let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
     let mut iterations = 0;
@@ -111,8 +116,11 @@ impl Search<'_, '_> {
 
     fn iterate(&mut self, multipliers: &mut Multipliers) -> Result<Progress, ProblemError> {
         let settings = &self.program.problem.settings;
-        if self.point.f < UNBOUNDED && infeasibility(&self.point) < 1e-6 {
+        if self.point.f < UNBOUNDED && infeasibility(&self.point) < 1e-4 {
             return Ok(Progress::Ended(End::Unbounded));
+        }
+        if self.radius < SMALLEST_RADIUS {
+            return Ok(Progress::Ended(End::Stalled));
         }
         let (lower, upper) = self.bounds();
         let step = match self.steered(&lower, &upper) {
@@ -123,12 +131,16 @@ impl Search<'_, '_> {
         *multipliers = step.multipliers.clone();
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
         if kkt.optimality <= settings.optimality && kkt.feasibility <= settings.feasibility {
-            return Ok(Progress::Ended(End::Converged));
+            // Within the tolerance; a few more steps usually bring the constraints to hold strictly.
+            if self.spare == 0 || self.point.c.iter().all(|c| *c >= 0.0) {
+                return Ok(Progress::Ended(End::Converged));
+            }
+            self.spare -= 1;
         }
         let problem = self.subproblem(&lower, &upper);
         let promised =
             self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
-        if promised <= 1e-15 * (1.0 + self.point.f.abs()) || self.radius < SMALLEST_RADIUS {
+        if promised <= 1e-15 * (1.0 + self.point.f.abs()) {
             return Ok(Progress::Ended(End::Stalled));
         }
         self.advance(&step, promised, &lower, &upper)?;
@@ -171,10 +183,12 @@ impl Search<'_, '_> {
     /// constraints are violated and no step reduces that.
     fn steered(&mut self, lower: &[f64], upper: &[f64]) -> Result<Option<Step>, Unsolved> {
         let tolerance = self.program.problem.settings.feasibility;
+        // What an interior-point step leaves violated by its own tolerance is no reason to steer.
+        let nothing = f64::max(tolerance, INTERIOR_POINT * self.radius);
         let mut step = solve(&self.subproblem(lower, upper))?;
         let before = violation(&self.point.h, &self.shifted(&self.point.c));
         let after = |search: &Self, step: &Step| search.subproblem(lower, upper).violation(&step.s);
-        if after(self, &step) > tolerance {
+        if after(self, &step) > nothing {
             let least = self.least_violation(lower, upper)?.min(after(self, &step));
             if infeasibility(&self.point) > 1e2 * tolerance && before - least <= 1e-6 * before && self.radius > 1e-6 {
                 return Ok(None);
@@ -185,7 +199,7 @@ impl Search<'_, '_> {
             }
         }
         let needed = 1.5 * step.multipliers.largest();
-        if after(self, &step) <= tolerance && needed > self.penalty {
+        if after(self, &step) <= nothing && needed > self.penalty {
             self.penalty = needed.min(LARGEST_PENALTY);
         }
         Ok(Some(step))

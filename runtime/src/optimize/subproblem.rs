@@ -1,7 +1,9 @@
 //! The convex subproblem: a quadratic model with elastic linearised constraints in a ball, solved by Clarabel.
 //!
-//!     minimise   g's + s'Bs/2 + mu (sum t+ + t- + sum w)
-//!     subject to A s + h = t+ - t-,  C s + c + w >= 0,  lower <= s <= upper,  |s| <= radius,  t+, t-, w >= 0
+//! ```text
+//! minimise   g's + s'Bs/2 + mu (sum t+ + t- + sum w)
+//! subject to A s + h = t+ - t-,  C s + c + w >= 0,  lower <= s <= upper,  |s| <= radius,  t+, t-, w >= 0
+//! ```
 //!
 //! Elastic variables make it feasible whatever the constraints. It is posed in units of the radius, so that Clarabel
 //! sees steps of order one however small the ball has become.
@@ -94,7 +96,8 @@ impl Subproblem<'_> {
     }
 
     fn attempt(&self, attempt: &Attempt) -> Result<Step, String> {
-        let data = self.assemble(attempt.regularise);
+        let scale = self.objective_scale(attempt.tame_penalty);
+        let data = self.assemble(attempt.regularise, scale);
         let settings = DefaultSettings {
             verbose: false,
             max_threads: 1,
@@ -117,46 +120,55 @@ impl Subproblem<'_> {
             _ => false,
         };
         if usable && solution.x.iter().chain(&solution.z).all(|x| x.is_finite()) {
-            Ok(self.step(&solution.x, &solution.z))
+            Ok(self.step(&solution.x, &solution.z, scale))
         } else {
             Err(format!("{:?}", solution.status))
         }
     }
 
+    /// By what the model's objective is divided, so that its coefficients do not grow without limit.
+    fn objective_scale(&self, tame_penalty: bool) -> f64 {
+        let scale = self.gradient.amax().max(1.0);
+        if tame_penalty { scale.max(self.penalty) } else { scale }
+    }
+
     /// Clarabel's form: minimise x'Px/2 + q'x subject to b - A x in the cones; x = (s, t+, t-, w)/radius.
-    fn assemble(&self, regularise: f64) -> Data {
+    ///
+    /// Values so large that no step in the ball changes the sign of their row are cut down, and bounds out of reach are
+    /// left out: neither changes the solution, but a huge right-hand side would spoil it.
+    fn assemble(&self, regularise: f64, scale: f64) -> Data {
         let (n, d, k) = (self.gradient.len(), self.h.len(), self.c.len());
         let mut p = Triplets::default();
         for j in 0..n {
             for i in 0..=j {
                 let extra = if i == j { regularise } else { 0.0 };
-                p.push(i, j, self.radius * self.hessian[(i, j)] + extra);
+                p.push(i, j, self.radius * self.hessian[(i, j)] / scale + extra);
             }
         }
         let columns = n + 2 * d + k;
-        let q: Vec<f64> = (0..columns).map(|j| if j < n { self.gradient[j] } else { self.penalty }).collect();
+        let q: Vec<f64> = (0..columns).map(|j| if j < n { self.gradient[j] } else { self.penalty } / scale).collect();
         let mut a = Triplets::default();
         let mut b = Vec::new();
         for i in 0..d {
             (0..n).for_each(|j| a.push(i, j, self.equality[(i, j)]));
             a.push(i, n + i, -1.0);
             a.push(i, n + d + i, 1.0);
-            b.push(-self.h[i] / self.radius);
+            b.push(-self.cut(self.h[i], self.equality, i));
         }
         for i in 0..k {
             (0..n).for_each(|j| a.push(d + i, j, -self.inequality[(i, j)]));
             a.push(d + i, n + 2 * d + i, -1.0);
-            b.push(self.c[i] / self.radius);
+            b.push(self.cut(self.c[i], self.inequality, i));
         }
         let mut single = |column: usize, sign: f64, bound: f64| {
             a.push(b.len(), column, sign);
             b.push(bound);
         };
         (n..columns).for_each(|j| single(j, -1.0, 0.0));
-        for j in finite(self.lower) {
+        for j in self.reachable(self.lower) {
             single(j, -1.0, -self.lower[j] / self.radius);
         }
-        for j in finite(self.upper) {
+        for j in self.reachable(self.upper) {
             single(j, 1.0, self.upper[j] / self.radius);
         }
         let inequalities = b.len() - d;
@@ -169,19 +181,30 @@ impl Subproblem<'_> {
         Data { p: p.matrix(columns, columns), q, a: a.matrix(b.len(), columns), b, cones }
     }
 
+    /// A row's value in units of the radius, cut where its sign is certain.
+    fn cut(&self, value: f64, rows: &DMatrix<f64>, i: usize) -> f64 {
+        let certain = 10.0 * (1.0 + rows.row(i).norm());
+        (value / self.radius).clamp(-certain, certain)
+    }
+
+    /// Which bounds the ball does not imply.
+    fn reachable(&self, bounds: &[f64]) -> impl Iterator<Item = usize> {
+        bounds.iter().enumerate().filter(|(_, b)| b.abs() < 2.0 * self.radius).map(|(j, _)| j)
+    }
+
     /// The step and the multipliers out of Clarabel's x and z.
-    fn step(&self, x: &[f64], z: &[f64]) -> Step {
+    fn step(&self, x: &[f64], z: &[f64], scale: f64) -> Step {
         let (n, d, k) = (self.gradient.len(), self.h.len(), self.c.len());
         let mut m = Multipliers::zeros(n, d, k);
-        m.equality = DVector::from_fn(d, |i, _| -z[i]);
-        m.inequality = DVector::from_fn(k, |i, _| z[d + i].max(0.0));
+        m.equality = DVector::from_fn(d, |i, _| -z[i] * scale);
+        m.inequality = DVector::from_fn(k, |i, _| z[d + i].max(0.0) * scale);
         let mut next = d + k + 2 * d + k;
-        for j in finite(self.lower) {
-            m.low[j] = z[next].max(0.0);
+        for j in self.reachable(self.lower) {
+            m.low[j] = z[next].max(0.0) * scale;
             next += 1;
         }
-        for j in finite(self.upper) {
-            m.high[j] = z[next].max(0.0);
+        for j in self.reachable(self.upper) {
+            m.high[j] = z[next].max(0.0) * scale;
             next += 1;
         }
         // Rounding must not carry a step across its bounds.
@@ -195,10 +218,6 @@ pub(super) fn violation(h: &DVector<f64>, c: &DVector<f64>) -> f64 {
     h.lp_norm(1) + c.iter().map(|c| (-c).max(0.0)).sum::<f64>()
 }
 
-fn finite(bounds: &[f64]) -> impl Iterator<Item = usize> {
-    bounds.iter().enumerate().filter(|(_, b)| b.is_finite()).map(|(j, _)| j)
-}
-
 /// One way to ask Clarabel.
 struct Attempt {
     tolerance: f64,
@@ -208,13 +227,32 @@ struct Attempt {
     static_regularisation: f64,
     /// Added to the diagonal of P.
     regularise: f64,
+    /// Whether the objective is divided by the penalty.
+    tame_penalty: bool,
 }
 
-const ATTEMPTS: [Attempt; 4] = [
-    Attempt { tolerance: 1e-10, accept: 1e-9, equilibrate: true, static_regularisation: 1e-8, regularise: 0.0 },
-    Attempt { tolerance: 1e-9, accept: 1e-8, equilibrate: false, static_regularisation: 1e-9, regularise: 0.0 },
-    Attempt { tolerance: 1e-9, accept: 1e-7, equilibrate: true, static_regularisation: 1e-7, regularise: 1e-8 },
-    Attempt { tolerance: 1e-8, accept: 1e-5, equilibrate: true, static_regularisation: 1e-6, regularise: 1e-6 },
+const FIRST: Attempt = Attempt {
+    tolerance: 1e-10,
+    accept: 1e-9,
+    equilibrate: true,
+    static_regularisation: 1e-8,
+    regularise: 0.0,
+    tame_penalty: false,
+};
+
+const ATTEMPTS: [Attempt; 5] = [
+    FIRST,
+    Attempt { tame_penalty: true, ..FIRST },
+    Attempt { tolerance: 1e-9, accept: 1e-8, equilibrate: false, static_regularisation: 1e-9, ..FIRST },
+    Attempt { tolerance: 1e-9, accept: 1e-7, static_regularisation: 1e-7, regularise: 1e-8, ..FIRST },
+    Attempt {
+        tolerance: 1e-8,
+        accept: 1e-5,
+        static_regularisation: 1e-6,
+        regularise: 1e-6,
+        tame_penalty: true,
+        ..FIRST
+    },
 ];
 
 struct Data {
