@@ -1,5 +1,11 @@
-//! Turns every `specs/*.toml` into `generated/*.rs` (see `gaitc_compiler::Config`).
+//! Turns every `specs/*.toml` into `generated/*.rs`; see `gaitc_compiler::build`.
 
-fn main() {
-    gaitc_compiler::build_script(gaitc_compiler::Config::new().specs("specs").generated("generated"));
+fn main() -> std::process::ExitCode {
+    match gaitc_compiler::build::Config::new().specs("specs").generated("generated").compile() {
+        Ok(_report) => std::process::ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            std::process::ExitCode::FAILURE
+        }
+    }
 }

@@ -4,8 +4,8 @@
 
 mod evaluate;
 
-use crate::model::{Functional, ModelInfo};
-pub use evaluate::evaluate;
+use crate::hybrid::Hybrid;
+use crate::model::{Functional, Model, ModelInfo};
 
 /// A generated function. Indices are those of [`ModelInfo`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,6 +94,12 @@ pub struct Evaluation {
 pub trait Probe: Send + Sync {
     /// Value and derivatives of one function; `None` when a slice has the wrong length or the index is out of range.
     fn probe(&self, function: Function, at: &Point<'_>) -> Option<Evaluation>;
+}
+
+impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Probe for Hybrid<M, N, P, Q> {
+    fn probe(&self, function: Function, at: &Point<'_>) -> Option<Evaluation> {
+        evaluate::evaluate::<M, N, P, Q>(function, at)
+    }
 }
 
 /// All functions that a model has.

@@ -4,7 +4,7 @@ use super::{Evaluation, Function, Point, Variable};
 use crate::model::{Env, Gradient, Jacobian, Model, ResidualJacobian};
 
 /// Calls one generated function of `M` at a point; `None` when a slice has the wrong length.
-pub fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+pub(super) fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     function: Function,
     at: &Point<'_>,
 ) -> Option<Evaluation> {
