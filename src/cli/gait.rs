@@ -3,7 +3,7 @@
 use super::args::{Cli, GaitArgs};
 use super::{InputError, Outcome, inputs, output};
 use crate::load::{Loaded, load};
-use gaitc_compiler::front::format::format_quantity;
+use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
 use gaitc_runtime::return_map::{StopReason, Warning};
 use serde_json::{Map, Value, json};

@@ -1,7 +1,7 @@
 //! The verdict of an optimisation, as JSON and for people.
 
 use crate::cli::output;
-use gaitc_compiler::front::format::{format_quantity, format_si, in_unit};
+use gaitc_compiler::front::{format_quantity, format_si, in_unit};
 use gaitc_compiler::ir::{Model, Problem, Sense};
 use gaitc_runtime::optimize::{Active, ActiveKind, Solution, Status};
 use serde_json::{Map, Value, json};
