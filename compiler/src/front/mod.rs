@@ -105,6 +105,6 @@ fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnos
 fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics.sort_by_key(|diagnostic| diagnostic.primary().map(|span| (span.start, span.end)));
     let mut seen = std::collections::HashSet::new();
-    diagnostics.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.primary())));
+    diagnostics.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.primary(), diagnostic.message.clone())));
     diagnostics
 }

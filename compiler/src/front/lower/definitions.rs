@@ -140,7 +140,7 @@ pub(super) fn cycle_diagnostic(members: &[(&str, Option<Span>)]) -> Option<Diagn
     path.push(format!("`{first}`"));
     let message = match members.len() {
         1 => format!("`{first}` needs itself"),
-        _ => format!("definitions need each other: {}", path.join(" needs ")),
+        _ => format!("definitions need each other: {}", path.join(" -> ")),
     };
     let mut diagnostic = Diagnostic::error(Code::Cycle, message).at((*span)?, "");
     for (_, span) in members.iter().skip(1).take(TOLD) {

@@ -39,7 +39,7 @@ const VERSION: i64 = 1;
 pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
     let mut sink = Sink { diagnostics, complete };
     let sink = &mut sink;
-    let fields = Fields::new(document, start, "a spec".to_owned(), KEYS, sink);
+    let fields = Fields::new(document, start, "the spec".to_owned(), KEYS, sink);
     version(&fields, sink);
     unsupported(
         &fields,
