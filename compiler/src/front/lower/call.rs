@@ -1,6 +1,7 @@
 //! Function calls: the functions of the language, functionals, and the spec's own functions, inlined where they are
 //! called.
 
+use super::branch::Extreme;
 use super::expr::Operand;
 use super::lowering::{Context, Frame, Lowering};
 use super::scope::{Definition, Entity};
@@ -77,8 +78,8 @@ impl Lowering<'_> {
                 let (a, b) = (Operand { value: left?, span: a.span }, Operand { value: right?, span: b.span });
                 let dimension = self.same(a, b, &format!("`{name}`"), context)?;
                 match name {
-                    "min" => Some(self.smaller(a.value, b.value, dimension, span, context)),
-                    "max" => Some(self.smaller(b.value, a.value, dimension, span, context)),
+                    "min" => Some(self.extreme(Extreme::Smaller, a.value, b.value, dimension, span, context)),
+                    "max" => Some(self.extreme(Extreme::Larger, a.value, b.value, dimension, span, context)),
                     _ => {
                         let node = self.binary(Binary::Atan2, a.value.node, b.value.node);
                         let uses = a.value.uses.and(b.value.uses);
