@@ -167,6 +167,10 @@ fn extremes_never_overflow_the_stack() {
     let functions: String = (1..3_000).map(|i| format!("f{i} = {{ args = [], expr = \"f{}()\" }}\n", i - 1)).collect();
     let functions = format!("[functions]\nf0 = {{ args = [], expr = \"1 [1/s]\" }}\n{functions}[let]");
     check(&spec("f2999()").replace("[let]", &functions)).unwrap();
+    let body = |i: usize| format!("min(1 [1/s], if(q_theta < 0 or not q_theta < 1, abs(f{i}() + 1 [1/s]), 1 [1/s]))");
+    let functions: String = (1..300).map(|i| format!("f{i} = {{ args = [], expr = \"{}\" }}\n", body(i - 1))).collect();
+    let functions = format!("[functions]\nf0 = {{ args = [], expr = \"1 [1/s]\" }}\n{functions}[let]");
+    check(&spec("f299()").replace("[let]", &functions)).unwrap();
     check(&format!("{SPEC}\nx = {}", "[".repeat(100_000))).unwrap();
     check(&format!("{SPEC}\n{}x = 1", "a.".repeat(100_000))).unwrap();
 }
