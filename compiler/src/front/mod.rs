@@ -1,7 +1,7 @@
 //! The front end: the text of a spec to the intermediate representation, or to diagnostics.
 //!
-//! The stages, each in its folder or file: TOML with places ([`document`]), tables and keys checked and expressions
-//! parsed ([`read`], giving [`spec`]), names resolved, dimensions checked and expressions lowered ([`lower`]). All
+//! The stages, each in its folder or file: TOML with places (`document`), tables and keys checked and expressions
+//! parsed (`read`, giving `spec`), names resolved, dimensions checked and expressions lowered (`lower`). All
 //! problems of a file are reported in one go; what depends on something broken is silent.
 
 mod constant;
