@@ -223,8 +223,9 @@ impl<'a> Parser<'a> {
             "and" | "or" => return Err(self.unexpected(token)),
             _ => {}
         }
-        self.names.push(NameUse { name: name.clone(), span, in_functional: self.functionals > 0 });
-        if self.peek().kind != TokenKind::Open {
+        let called = self.peek().kind == TokenKind::Open;
+        self.names.push(NameUse { name: name.clone(), span, called, in_functional: self.functionals > 0 });
+        if !called {
             return Ok(Expr { kind: ExprKind::Name(name), span });
         }
         let open = self.next();

@@ -21,7 +21,7 @@ struct Branches {
     otherwise: NodeId,
 }
 
-/// Of two values the smaller, or the larger.
+/// Which of two numbers.
 #[derive(Clone, Copy)]
 pub(super) enum Extreme {
     Smaller,
@@ -113,8 +113,10 @@ impl Lowering<'_> {
             ExprKind::Not(inner) => self.margin(inner, place).map(|value| self.negated(value)),
             ExprKind::Logic(logic, a, b) => {
                 let (a, b) = (self.margin(a, place), self.margin(b, place));
-                let extreme = if *logic == Logic::And { Extreme::Smaller } else { Extreme::Larger };
-                a.zip(b).map(|(a, b)| self.extreme(extreme, a, b, Some(Dimension::NONE), condition.span, context))
+                a.zip(b).map(|(a, b)| {
+                    let extreme = if *logic == Logic::And { Extreme::Smaller } else { Extreme::Larger };
+                    self.extreme(extreme, a, b, Some(Dimension::NONE), condition.span, context)
+                })
             }
             _ => {
                 self.no_condition(condition, context);

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 /// Deepest nesting of expressions through the functions that they call.
 const DEPTH_LIMIT: usize = 256;
 /// Most nodes of a model.
-const NODE_LIMIT: usize = 1_000_000;
+const NODE_LIMIT: usize = 200_000;
 
 /// Lowers expressions into a model's graph.
 pub(crate) struct Lowering<'a> {
