@@ -35,7 +35,8 @@ pub fn parse(name: &str, text: &str) -> Model {
 
 /// Every operation, and what the language does not offer yet: a second mode, rates in observables and resets.
 pub fn every_operation() -> Model {
-    let mut model = parse("every_operation", &std::fs::read_to_string(test_file("golden/every_operation.toml")).unwrap());
+    let mut model =
+        parse("every_operation", &std::fs::read_to_string(test_file("golden/every_operation.toml")).unwrap());
     let [x, y, z] = [0, 1, 2].map(|i| model.graph.symbol(Symbol::State(i)));
     let rate = model.graph.symbol(Symbol::Rate(0));
     let minus_x = model.graph.unary(Unary::Neg, x);
@@ -76,16 +77,19 @@ pub fn with_mass_matrix() -> Model {
     let (zero, one) = (model.graph.constant(0.0), model.graph.constant(1.0));
     let cosine = model.graph.unary(Unary::Cos, phi);
     let coupling = model.graph.binary(Binary::Mul, length, cosine);
-    model.modes[0].mass =
-        Some(vec![vec![mass, coupling, zero], vec![cosine, length, zero], vec![zero, zero, one]]);
+    model.modes[0].mass = Some(vec![vec![mass, coupling, zero], vec![cosine, length, zero], vec![zero, zero, one]]);
     model
 }
 
-/// The text that is generated for a model.
-pub fn generate(python: &Python, model: &Validated) -> String {
-    let programs = casadi::derive(python, &[model]).unwrap();
-    let options = Options { runtime_path: "::gaitc_runtime".into(), fingerprint: fingerprint(model.model()) };
-    emit(model, &programs[0], &options).unwrap()
+/// The texts that are generated for some models.
+pub fn generate(python: &Python, models: &[Validated]) -> Vec<String> {
+    let all: Vec<&Validated> = models.iter().collect();
+    let programs = casadi::derive(python, &all).unwrap();
+    let text = |(model, programs): (&Validated, &casadi::Programs)| {
+        let options = Options { runtime_path: "::gaitc_runtime".into(), fingerprint: fingerprint(model.model()) };
+        emit(model, programs, &options).unwrap()
+    };
+    models.iter().zip(&programs).map(text).collect()
 }
 
 pub fn validated(model: Model) -> Validated {

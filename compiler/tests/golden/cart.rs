@@ -224,10 +224,10 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
             dz.fill(nan_state());
             return [nan_state(); PARAMETERS];
         }
-        let (columns, dp): ([[S; STATES]; 0], [[S; STATES]; PARAMETERS]) = ((
+        let (columns, dp): ([[S; STATES]; 0], [[S; STATES]; PARAMETERS]) = (
             [nan_state(); 0],
             [nan_state(); PARAMETERS],
-        ));
+        );
         for (slot, column) in dz.iter_mut().zip(columns) {
             *slot = column;
         }

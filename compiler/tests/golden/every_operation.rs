@@ -1125,162 +1125,159 @@ fn d_flow_first<S: scalar::Scalar>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::not(b3);
-    let v70 = S::not(b1);
-    let v71 = S::select(b1, x_Y, x_x);
-    let v72 = S::not(b2);
-    let v73 = S::select(b2, x_x, p_a);
-    let v74 = v71 + v73;
-    let v75 = S::select(b3, v68, v74);
-    let v76 = v66 + v75;
-    let v77 = S::constant(-1.0).pow(n_n);
-    let v78 = v77 * tau;
-    let v79 = v76 + v78;
-    let v80 = x_x.cos();
-    let v81 = v2.cos();
-    let v82 = v81 * v81;
-    let v83 = p_a / v82;
-    let v84 = v1 * v83;
-    let v85 = v80 + v84;
-    let v86 = S::constant(0.25) * p_a;
-    let v87 = v6 * v6;
-    let v88 = S::constant(1.0) - v87;
-    let v89 = v88.sqrt();
-    let v90 = v86 / v89;
-    let v91 = v85 + v90;
-    let v92 = v13 * v13;
-    let v93 = S::constant(1.0) + v92;
-    let v94 = p_b / v93;
-    let v95 = v91 + v94;
-    let v96 = v16 * v16;
-    let v97 = v17 * v17;
-    let v98 = v96 + v97;
-    let v99 = v17 / v98;
-    let v100 = v95 + v99;
-    let v101 = v2.cosh();
-    let v102 = v101 * p_a;
-    let v103 = v93.sqrt();
-    let v104 = p_b / v103;
-    let v105 = v102 + v104;
-    let v106 = v28 - S::constant(1.0);
+    let v69 = S::select(b1, x_Y, x_x);
+    let v70 = S::select(b2, x_x, p_a);
+    let v71 = v69 + v70;
+    let v72 = S::select(b3, v68, v71);
+    let v73 = v66 + v72;
+    let v74 = S::constant(-1.0).pow(n_n);
+    let v75 = v74 * tau;
+    let v76 = v73 + v75;
+    let v77 = x_x.cos();
+    let v78 = v2.cos();
+    let v79 = v78 * v78;
+    let v80 = p_a / v79;
+    let v81 = v1 * v80;
+    let v82 = v77 + v81;
+    let v83 = S::constant(0.25) * p_a;
+    let v84 = v6 * v6;
+    let v85 = S::constant(1.0) - v84;
+    let v86 = v85.sqrt();
+    let v87 = v83 / v86;
+    let v88 = v82 + v87;
+    let v89 = v13 * v13;
+    let v90 = S::constant(1.0) + v89;
+    let v91 = p_b / v90;
+    let v92 = v88 + v91;
+    let v93 = v16 * v16;
+    let v94 = v17 * v17;
+    let v95 = v93 + v94;
+    let v96 = v17 / v95;
+    let v97 = v92 + v96;
+    let v98 = v2.cosh();
+    let v99 = v98 * p_a;
+    let v100 = v90.sqrt();
+    let v101 = p_b / v100;
+    let v102 = v99 + v101;
+    let v103 = v28 - S::constant(1.0);
+    let v104 = v103.sqrt();
+    let v105 = S::constant(1.0) / v104;
+    let v106 = v28 + S::constant(1.0);
     let v107 = v106.sqrt();
-    let v108 = S::constant(1.0) / v107;
-    let v109 = v28 + S::constant(1.0);
-    let v110 = v109.sqrt();
-    let v111 = v108 / v110;
-    let v112 = x_x + x_x;
-    let v113 = v111 * v112;
-    let v114 = v105 + v113;
-    let v115 = v86 / v88;
-    let v116 = v114 + v115;
-    let v117 = S::constant(0.1) * v116;
-    let v118 = v100 + v117;
-    let v119 = x_x * v112;
-    let v120 = v27 + v119;
-    let v121 = v112 + v120;
-    let v122 = v39 / v38;
-    let v123 = v37 + v37;
-    let v124 = v122 * v123;
-    let v125 = S::constant(0.01) * v124;
-    let v126 = v121 - v125;
-    let v127 = x_x / v43;
-    let v128 = v126 + v127;
-    let v129 = v42.pow(S::constant(1.5));
-    let v130 = S::constant(2.5) * v129;
-    let v131 = v130 * v112;
-    let v132 = v128 + v131;
-    let v133 = p_c - S::constant(1.0);
-    let v134 = v42.pow(v133);
-    let v135 = p_c * v134;
-    let v136 = v135 * v112;
-    let v137 = v132 + v136;
-    let v138 = v49 / v43;
-    let v139 = v138 * v127;
-    let v140 = v137 - v139;
-    let v141 = S::constant(0.1) * v140;
-    let v142 = v112 / v55;
-    let v143 = v53 * v112;
-    let v144 = v142 - v143;
-    let v145 = v59 * v144;
-    let v146 = v141 + v145;
-    let v147 = v146 + S::constant(-1.0);
-    let v148 = v63 + v63;
-    let v149 = S::constant(1.0) / v148;
-    let v150 = x_x / v148;
-    let v151 = v63 + v150;
-    let v152 = v149 + v151;
-    let v153 = -v112;
-    let v154 = S::select(b0, v152, v153);
-    let v155 = S::select(b0, x_Y, v80);
-    let v156 = S::select(v70, S::constant(1.0), S::constant(0.0));
-    let v157 = S::select(b2, S::constant(1.0), S::constant(0.0));
-    let v158 = v156 + v157;
-    let v159 = S::select(b3, v155, v158);
-    let v160 = v154 + v159;
-    let v161 = v9.sinh();
-    let v162 = v161 * p_a;
-    let v163 = S::constant(0.1) * v162;
-    let v164 = x_Y.sin();
-    let v165 = v3 * v164;
-    let v166 = v10 * v10;
-    let v167 = S::constant(1.0) - v166;
-    let v168 = v167.sqrt();
-    let v169 = S::constant(-1.0) / v168;
-    let v170 = v169 * v86;
-    let v171 = v165 + v170;
-    let v172 = v16 / v98;
-    let v173 = v171 + v172;
-    let v174 = v163 - v173;
-    let v175 = S::select(b0, x_x, S::constant(0.0));
-    let v176 = S::select(b1, S::constant(1.0), S::constant(0.0));
-    let v177 = S::select(b3, v175, v176);
-    let v178 = v23 * v23;
-    let v179 = S::constant(1.0) - v178;
-    let v180 = S::constant(0.1) * v179;
-    let v181 = x_x / v82;
-    let v182 = v1 * v181;
-    let v183 = S::constant(0.25) * x_x;
-    let v184 = v183 / v89;
-    let v185 = v182 + v184;
-    let v186 = S::constant(0.25) * x_Y;
-    let v187 = v169 * v186;
-    let v188 = v185 - v187;
-    let v189 = v101 * x_x;
-    let v190 = v161 * x_Y;
-    let v191 = v189 + v190;
-    let v192 = v183 / v88;
-    let v193 = v191 + v192;
-    let v194 = S::constant(0.1) * v193;
-    let v195 = v188 + v194;
-    let v196 = S::select(v72, S::constant(1.0), S::constant(0.0));
-    let v197 = S::select(v69, v196, S::constant(0.0));
-    let v198 = x_x / v93;
-    let v199 = x_x / v103;
-    let v200 = S::constant(0.1) * v199;
-    let v201 = v198 + v200;
-    let v202 = v42.ln();
-    let v203 = v202 * v47;
-    let v204 = S::constant(0.1) * v203;
-    let v205 = v59 / v55;
-    let v206 = v58.sin();
-    let v207 = S::constant(3.0) * v206;
-    let v208 = v57 * v207;
-    let v209 = -v208;
+    let v108 = v105 / v107;
+    let v109 = x_x + x_x;
+    let v110 = v108 * v109;
+    let v111 = v102 + v110;
+    let v112 = v83 / v85;
+    let v113 = v111 + v112;
+    let v114 = S::constant(0.1) * v113;
+    let v115 = v97 + v114;
+    let v116 = x_x * v109;
+    let v117 = v27 + v116;
+    let v118 = v109 + v117;
+    let v119 = v39 / v38;
+    let v120 = v37 + v37;
+    let v121 = v119 * v120;
+    let v122 = S::constant(0.01) * v121;
+    let v123 = v118 - v122;
+    let v124 = x_x / v43;
+    let v125 = v123 + v124;
+    let v126 = v42.pow(S::constant(1.5));
+    let v127 = S::constant(2.5) * v126;
+    let v128 = v127 * v109;
+    let v129 = v125 + v128;
+    let v130 = p_c - S::constant(1.0);
+    let v131 = v42.pow(v130);
+    let v132 = p_c * v131;
+    let v133 = v132 * v109;
+    let v134 = v129 + v133;
+    let v135 = v49 / v43;
+    let v136 = v135 * v124;
+    let v137 = v134 - v136;
+    let v138 = S::constant(0.1) * v137;
+    let v139 = v109 / v55;
+    let v140 = v53 * v109;
+    let v141 = v139 - v140;
+    let v142 = v59 * v141;
+    let v143 = v138 + v142;
+    let v144 = v143 + S::constant(-1.0);
+    let v145 = v63 + v63;
+    let v146 = S::constant(1.0) / v145;
+    let v147 = x_x / v145;
+    let v148 = v63 + v147;
+    let v149 = v146 + v148;
+    let v150 = -v109;
+    let v151 = S::select(b0, v149, v150);
+    let v152 = S::select(b0, x_Y, v77);
+    let v153 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v154 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v155 = v153 + v154;
+    let v156 = S::select(b3, v152, v155);
+    let v157 = v151 + v156;
+    let v158 = v9.sinh();
+    let v159 = v158 * p_a;
+    let v160 = S::constant(0.1) * v159;
+    let v161 = x_Y.sin();
+    let v162 = v3 * v161;
+    let v163 = v10 * v10;
+    let v164 = S::constant(1.0) - v163;
+    let v165 = v164.sqrt();
+    let v166 = S::constant(-1.0) / v165;
+    let v167 = v166 * v83;
+    let v168 = v162 + v167;
+    let v169 = v16 / v95;
+    let v170 = v168 + v169;
+    let v171 = v160 - v170;
+    let v172 = S::select(b0, x_x, S::constant(0.0));
+    let v173 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v174 = S::select(b3, v172, v173);
+    let v175 = v23 * v23;
+    let v176 = S::constant(1.0) - v175;
+    let v177 = S::constant(0.1) * v176;
+    let v178 = x_x / v79;
+    let v179 = v1 * v178;
+    let v180 = S::constant(0.25) * x_x;
+    let v181 = v180 / v86;
+    let v182 = v179 + v181;
+    let v183 = S::constant(0.25) * x_Y;
+    let v184 = v166 * v183;
+    let v185 = v182 - v184;
+    let v186 = v98 * x_x;
+    let v187 = v158 * x_Y;
+    let v188 = v186 + v187;
+    let v189 = v180 / v85;
+    let v190 = v188 + v189;
+    let v191 = S::constant(0.1) * v190;
+    let v192 = v185 + v191;
+    let v193 = S::select(b2, S::constant(0.0), S::constant(1.0));
+    let v194 = S::select(b3, S::constant(0.0), v193);
+    let v195 = x_x / v90;
+    let v196 = x_x / v100;
+    let v197 = S::constant(0.1) * v196;
+    let v198 = v195 + v197;
+    let v199 = v42.ln();
+    let v200 = v199 * v47;
+    let v201 = S::constant(0.1) * v200;
+    let v202 = v59 / v55;
+    let v203 = v58.sin();
+    let v204 = S::constant(3.0) * v203;
+    let v205 = v57 * v204;
+    let v206 = -v205;
     model::Jacobian {
-        value: [v34, v62, v79],
+        value: [v34, v62, v76],
         dx: [
-            [v118, v147, v160],
-            [v174, S::constant(0.0), v177],
-            [v180, S::constant(0.0), S::constant(0.0)],
+            [v115, v144, v157],
+            [v171, S::constant(0.0), v174],
+            [v177, S::constant(0.0), S::constant(0.0)],
         ],
         dp: [
-            [v195, S::constant(0.0), v197],
-            [v201, S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), v204, S::constant(0.0)],
-            [S::constant(0.0), v205, S::constant(0.0)],
+            [v192, S::constant(0.0), v194],
+            [v198, S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), v201, S::constant(0.0)],
+            [S::constant(0.0), v202, S::constant(0.0)],
         ],
-        dtau: [S::constant(0.0), S::constant(0.0), v77],
-        dt: [S::constant(0.0), v209, S::constant(0.0)],
+        dtau: [S::constant(0.0), S::constant(0.0), v74],
+        dt: [S::constant(0.0), v206, S::constant(0.0)],
     }
 }
 
@@ -1370,164 +1367,161 @@ fn d_residual_first<S: scalar::Scalar>(
     let v68 = S::select(b0, v67, v53);
     let v69 = x_x * x_Y;
     let v70 = S::select(b0, v69, v0);
-    let v71 = S::not(b3);
-    let v72 = S::not(b1);
-    let v73 = S::select(b1, x_Y, x_x);
-    let v74 = S::not(b2);
-    let v75 = S::select(b2, x_x, p_a);
-    let v76 = v73 + v75;
-    let v77 = S::select(b3, v70, v76);
-    let v78 = v68 + v77;
-    let v79 = S::constant(-1.0).pow(n_n);
-    let v80 = v79 * tau;
-    let v81 = v78 + v80;
-    let v82 = k_self - v81;
-    let v83 = x_x.cos();
-    let v84 = v2.cos();
-    let v85 = v84 * v84;
-    let v86 = p_a / v85;
-    let v87 = v1 * v86;
-    let v88 = v83 + v87;
-    let v89 = S::constant(0.25) * p_a;
-    let v90 = v6 * v6;
-    let v91 = S::constant(1.0) - v90;
-    let v92 = v91.sqrt();
-    let v93 = v89 / v92;
-    let v94 = v88 + v93;
-    let v95 = v13 * v13;
-    let v96 = S::constant(1.0) + v95;
-    let v97 = p_b / v96;
-    let v98 = v94 + v97;
-    let v99 = v16 * v16;
-    let v100 = v17 * v17;
-    let v101 = v99 + v100;
-    let v102 = v17 / v101;
-    let v103 = v98 + v102;
-    let v104 = v2.cosh();
-    let v105 = v104 * p_a;
-    let v106 = v96.sqrt();
-    let v107 = p_b / v106;
-    let v108 = v105 + v107;
-    let v109 = v28 - S::constant(1.0);
+    let v71 = S::select(b1, x_Y, x_x);
+    let v72 = S::select(b2, x_x, p_a);
+    let v73 = v71 + v72;
+    let v74 = S::select(b3, v70, v73);
+    let v75 = v68 + v74;
+    let v76 = S::constant(-1.0).pow(n_n);
+    let v77 = v76 * tau;
+    let v78 = v75 + v77;
+    let v79 = k_self - v78;
+    let v80 = x_x.cos();
+    let v81 = v2.cos();
+    let v82 = v81 * v81;
+    let v83 = p_a / v82;
+    let v84 = v1 * v83;
+    let v85 = v80 + v84;
+    let v86 = S::constant(0.25) * p_a;
+    let v87 = v6 * v6;
+    let v88 = S::constant(1.0) - v87;
+    let v89 = v88.sqrt();
+    let v90 = v86 / v89;
+    let v91 = v85 + v90;
+    let v92 = v13 * v13;
+    let v93 = S::constant(1.0) + v92;
+    let v94 = p_b / v93;
+    let v95 = v91 + v94;
+    let v96 = v16 * v16;
+    let v97 = v17 * v17;
+    let v98 = v96 + v97;
+    let v99 = v17 / v98;
+    let v100 = v95 + v99;
+    let v101 = v2.cosh();
+    let v102 = v101 * p_a;
+    let v103 = v93.sqrt();
+    let v104 = p_b / v103;
+    let v105 = v102 + v104;
+    let v106 = v28 - S::constant(1.0);
+    let v107 = v106.sqrt();
+    let v108 = S::constant(1.0) / v107;
+    let v109 = v28 + S::constant(1.0);
     let v110 = v109.sqrt();
-    let v111 = S::constant(1.0) / v110;
-    let v112 = v28 + S::constant(1.0);
-    let v113 = v112.sqrt();
-    let v114 = v111 / v113;
-    let v115 = x_x + x_x;
-    let v116 = v114 * v115;
-    let v117 = v108 + v116;
-    let v118 = v89 / v91;
-    let v119 = v117 + v118;
-    let v120 = S::constant(0.1) * v119;
-    let v121 = v103 + v120;
-    let v122 = -v121;
-    let v123 = x_x * v115;
-    let v124 = v27 + v123;
-    let v125 = v115 + v124;
-    let v126 = v40 / v39;
-    let v127 = v38 + v38;
-    let v128 = v126 * v127;
-    let v129 = S::constant(0.01) * v128;
-    let v130 = v125 - v129;
-    let v131 = x_x / v44;
-    let v132 = v130 + v131;
-    let v133 = v43.pow(S::constant(1.5));
-    let v134 = S::constant(2.5) * v133;
-    let v135 = v134 * v115;
-    let v136 = v132 + v135;
-    let v137 = p_c - S::constant(1.0);
-    let v138 = v43.pow(v137);
-    let v139 = p_c * v138;
-    let v140 = v139 * v115;
-    let v141 = v136 + v140;
-    let v142 = v50 / v44;
-    let v143 = v142 * v131;
-    let v144 = v141 - v143;
-    let v145 = S::constant(0.1) * v144;
-    let v146 = v115 / v56;
-    let v147 = v54 * v115;
-    let v148 = v146 - v147;
-    let v149 = v60 * v148;
-    let v150 = v145 + v149;
-    let v151 = v150 + S::constant(-1.0);
-    let v152 = -v151;
-    let v153 = v65 + v65;
-    let v154 = S::constant(1.0) / v153;
-    let v155 = x_x / v153;
-    let v156 = v65 + v155;
-    let v157 = v154 + v156;
-    let v158 = -v115;
-    let v159 = S::select(b0, v157, v158);
-    let v160 = S::select(b0, x_Y, v83);
-    let v161 = S::select(v72, S::constant(1.0), S::constant(0.0));
-    let v162 = S::select(b2, S::constant(1.0), S::constant(0.0));
-    let v163 = v161 + v162;
-    let v164 = S::select(b3, v160, v163);
-    let v165 = v159 + v164;
-    let v166 = -v165;
-    let v167 = v9.sinh();
-    let v168 = v167 * p_a;
-    let v169 = S::constant(0.1) * v168;
-    let v170 = x_Y.sin();
-    let v171 = v3 * v170;
-    let v172 = v10 * v10;
-    let v173 = S::constant(1.0) - v172;
-    let v174 = v173.sqrt();
-    let v175 = S::constant(-1.0) / v174;
-    let v176 = v175 * v89;
-    let v177 = v171 + v176;
-    let v178 = v16 / v101;
-    let v179 = v177 + v178;
-    let v180 = v169 - v179;
-    let v181 = -v180;
-    let v182 = S::select(b0, x_x, S::constant(0.0));
-    let v183 = S::select(b1, S::constant(1.0), S::constant(0.0));
-    let v184 = S::select(b3, v182, v183);
-    let v185 = -v184;
-    let v186 = v23 * v23;
-    let v187 = S::constant(1.0) - v186;
-    let v188 = S::constant(0.1) * v187;
-    let v189 = -v188;
-    let v190 = x_x / v85;
-    let v191 = v1 * v190;
-    let v192 = S::constant(0.25) * x_x;
-    let v193 = v192 / v92;
-    let v194 = v191 + v193;
-    let v195 = S::constant(0.25) * x_Y;
-    let v196 = v175 * v195;
-    let v197 = v194 - v196;
-    let v198 = v104 * x_x;
-    let v199 = v167 * x_Y;
-    let v200 = v198 + v199;
-    let v201 = v192 / v91;
-    let v202 = v200 + v201;
-    let v203 = S::constant(0.1) * v202;
-    let v204 = v197 + v203;
-    let v205 = -v204;
-    let v206 = S::select(v74, S::constant(-1.0), S::constant(0.0));
-    let v207 = S::select(v71, v206, S::constant(0.0));
-    let v208 = x_x / v96;
-    let v209 = x_x / v106;
-    let v210 = S::constant(0.1) * v209;
-    let v211 = v208 + v210;
-    let v212 = -v211;
-    let v213 = v43.ln();
-    let v214 = v213 * v48;
-    let v215 = S::constant(0.1) * v214;
-    let v216 = -v215;
-    let v217 = v60 / v56;
-    let v218 = -v217;
-    let v219 = -v79;
-    let v220 = v59.sin();
-    let v221 = S::constant(3.0) * v220;
-    let v222 = v58 * v221;
+    let v111 = v108 / v110;
+    let v112 = x_x + x_x;
+    let v113 = v111 * v112;
+    let v114 = v105 + v113;
+    let v115 = v86 / v88;
+    let v116 = v114 + v115;
+    let v117 = S::constant(0.1) * v116;
+    let v118 = v100 + v117;
+    let v119 = -v118;
+    let v120 = x_x * v112;
+    let v121 = v27 + v120;
+    let v122 = v112 + v121;
+    let v123 = v40 / v39;
+    let v124 = v38 + v38;
+    let v125 = v123 * v124;
+    let v126 = S::constant(0.01) * v125;
+    let v127 = v122 - v126;
+    let v128 = x_x / v44;
+    let v129 = v127 + v128;
+    let v130 = v43.pow(S::constant(1.5));
+    let v131 = S::constant(2.5) * v130;
+    let v132 = v131 * v112;
+    let v133 = v129 + v132;
+    let v134 = p_c - S::constant(1.0);
+    let v135 = v43.pow(v134);
+    let v136 = p_c * v135;
+    let v137 = v136 * v112;
+    let v138 = v133 + v137;
+    let v139 = v50 / v44;
+    let v140 = v139 * v128;
+    let v141 = v138 - v140;
+    let v142 = S::constant(0.1) * v141;
+    let v143 = v112 / v56;
+    let v144 = v54 * v112;
+    let v145 = v143 - v144;
+    let v146 = v60 * v145;
+    let v147 = v142 + v146;
+    let v148 = v147 + S::constant(-1.0);
+    let v149 = -v148;
+    let v150 = v65 + v65;
+    let v151 = S::constant(1.0) / v150;
+    let v152 = x_x / v150;
+    let v153 = v65 + v152;
+    let v154 = v151 + v153;
+    let v155 = -v112;
+    let v156 = S::select(b0, v154, v155);
+    let v157 = S::select(b0, x_Y, v80);
+    let v158 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v159 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v160 = v158 + v159;
+    let v161 = S::select(b3, v157, v160);
+    let v162 = v156 + v161;
+    let v163 = -v162;
+    let v164 = v9.sinh();
+    let v165 = v164 * p_a;
+    let v166 = S::constant(0.1) * v165;
+    let v167 = x_Y.sin();
+    let v168 = v3 * v167;
+    let v169 = v10 * v10;
+    let v170 = S::constant(1.0) - v169;
+    let v171 = v170.sqrt();
+    let v172 = S::constant(-1.0) / v171;
+    let v173 = v172 * v86;
+    let v174 = v168 + v173;
+    let v175 = v16 / v98;
+    let v176 = v174 + v175;
+    let v177 = v166 - v176;
+    let v178 = -v177;
+    let v179 = S::select(b0, x_x, S::constant(0.0));
+    let v180 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v181 = S::select(b3, v179, v180);
+    let v182 = -v181;
+    let v183 = v23 * v23;
+    let v184 = S::constant(1.0) - v183;
+    let v185 = S::constant(0.1) * v184;
+    let v186 = -v185;
+    let v187 = x_x / v82;
+    let v188 = v1 * v187;
+    let v189 = S::constant(0.25) * x_x;
+    let v190 = v189 / v89;
+    let v191 = v188 + v190;
+    let v192 = S::constant(0.25) * x_Y;
+    let v193 = v172 * v192;
+    let v194 = v191 - v193;
+    let v195 = v101 * x_x;
+    let v196 = v164 * x_Y;
+    let v197 = v195 + v196;
+    let v198 = v189 / v88;
+    let v199 = v197 + v198;
+    let v200 = S::constant(0.1) * v199;
+    let v201 = v194 + v200;
+    let v202 = -v201;
+    let v203 = S::select(b2, S::constant(0.0), S::constant(-1.0));
+    let v204 = S::select(b3, S::constant(0.0), v203);
+    let v205 = x_x / v93;
+    let v206 = x_x / v103;
+    let v207 = S::constant(0.1) * v206;
+    let v208 = v205 + v207;
+    let v209 = -v208;
+    let v210 = v43.ln();
+    let v211 = v210 * v48;
+    let v212 = S::constant(0.1) * v211;
+    let v213 = -v212;
+    let v214 = v60 / v56;
+    let v215 = -v214;
+    let v216 = -v76;
+    let v217 = v59.sin();
+    let v218 = S::constant(3.0) * v217;
+    let v219 = v58 * v218;
     model::ResidualJacobian {
-        value: [v35, v64, v82],
+        value: [v35, v64, v79],
         dx: [
-            [v122, v152, v166],
-            [v181, S::constant(0.0), v185],
-            [v189, S::constant(0.0), S::constant(0.0)],
+            [v119, v149, v163],
+            [v178, S::constant(0.0), v182],
+            [v186, S::constant(0.0), S::constant(0.0)],
         ],
         dk: [
             [S::constant(1.0), S::constant(0.0), S::constant(0.0)],
@@ -1535,13 +1529,13 @@ fn d_residual_first<S: scalar::Scalar>(
             [S::constant(0.0), S::constant(0.0), S::constant(1.0)],
         ],
         dp: [
-            [v205, S::constant(0.0), v207],
-            [v212, S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), v216, S::constant(0.0)],
-            [S::constant(0.0), v218, S::constant(0.0)],
+            [v202, S::constant(0.0), v204],
+            [v209, S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), v213, S::constant(0.0)],
+            [S::constant(0.0), v215, S::constant(0.0)],
         ],
-        dtau: [S::constant(0.0), S::constant(0.0), v219],
-        dt: [S::constant(0.0), v222, S::constant(0.0)],
+        dtau: [S::constant(0.0), S::constant(0.0), v216],
+        dt: [S::constant(0.0), v219, S::constant(0.0)],
     }
 }
 
@@ -1758,38 +1752,35 @@ fn d_reset_go<S: scalar::Scalar>(
     let v2 = x_x * x_Y;
     let v3 = x_x.sin();
     let v4 = S::select(b0, v2, v3);
-    let v5 = S::not(b3);
-    let v6 = S::not(b1);
-    let v7 = S::select(b1, x_Y, x_x);
-    let v8 = S::not(b2);
-    let v9 = S::select(b2, x_x, p_a);
-    let v10 = v7 + v9;
-    let v11 = S::select(b3, v4, v10);
-    let v12 = S::constant(-1.0).pow(n_n);
-    let v13 = v12 * p_type;
-    let v14 = x_x.cos();
-    let v15 = S::select(b0, x_Y, v14);
-    let v16 = S::select(v6, S::constant(1.0), S::constant(0.0));
-    let v17 = S::select(b2, S::constant(1.0), S::constant(0.0));
-    let v18 = v16 + v17;
-    let v19 = S::select(b3, v15, v18);
-    let v20 = S::select(b0, x_x, S::constant(0.0));
-    let v21 = S::select(b1, S::constant(1.0), S::constant(0.0));
-    let v22 = S::select(b3, v20, v21);
-    let v23 = S::select(v8, S::constant(1.0), S::constant(0.0));
-    let v24 = S::select(v5, v23, S::constant(0.0));
+    let v5 = S::select(b1, x_Y, x_x);
+    let v6 = S::select(b2, x_x, p_a);
+    let v7 = v5 + v6;
+    let v8 = S::select(b3, v4, v7);
+    let v9 = S::constant(-1.0).pow(n_n);
+    let v10 = v9 * p_type;
+    let v11 = x_x.cos();
+    let v12 = S::select(b0, x_Y, v11);
+    let v13 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v14 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v15 = v13 + v14;
+    let v16 = S::select(b3, v12, v15);
+    let v17 = S::select(b0, x_x, S::constant(0.0));
+    let v18 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v19 = S::select(b3, v17, v18);
+    let v20 = S::select(b2, S::constant(0.0), S::constant(1.0));
+    let v21 = S::select(b3, S::constant(0.0), v20);
     model::Jacobian {
-        value: [v1, v11, v13],
+        value: [v1, v8, v10],
         dx: [
-            [S::constant(1.0), v19, S::constant(0.0)],
-            [S::constant(0.0), v22, S::constant(0.0)],
+            [S::constant(1.0), v16, S::constant(0.0)],
+            [S::constant(0.0), v19, S::constant(0.0)],
             [p_b, S::constant(0.0), S::constant(0.0)],
         ],
         dp: [
-            [S::constant(0.0), v24, S::constant(0.0)],
+            [S::constant(0.0), v21, S::constant(0.0)],
             [x_self, S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), S::constant(0.0), v12],
+            [S::constant(0.0), S::constant(0.0), v9],
         ],
         dtau: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dt: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
@@ -1849,7 +1840,7 @@ fn d_reset_back<S: scalar::Scalar>(
 
 /// Derivatives of the embedding by section coordinates and parameters, by columns.
 ///
-/// 4 additions, 4 multiplications, 3 selections.
+/// 3 additions, 2 multiplications, 3 selections.
 fn d_embed<S: scalar::Scalar>(
     z: &[S],
     p: &[S; PARAMETERS],
@@ -1857,26 +1848,22 @@ fn d_embed<S: scalar::Scalar>(
     let &[x_self, x_x] = z else { return ([nan_state(); 2], [nan_state(); PARAMETERS]) };
     let &[p_a, p_b, _, _] = p;
     let v0 = x_x * x_x;
-    let v1 = p_a * v0;
-    let v2 = p_b - x_x;
-    let v3 = S::constant(0.0).less_equal(v2);
-    let v4 = S::not(v3);
-    let v5 = S::select(v3, x_x, p_b);
-    let v6 = x_self * v5;
-    let v7 = v1 + v6;
-    let v8 = x_x + x_x;
-    let v9 = p_a * v8;
-    let v10 = S::select(v3, x_self, S::constant(0.0));
-    let v11 = v9 + v10;
-    let v12 = S::select(v4, x_self, S::constant(0.0));
+    let v1 = p_b - x_x;
+    let v2 = S::constant(0.0).less_equal(v1);
+    let v3 = S::select(v2, x_x, p_b);
+    let v4 = x_x + x_x;
+    let v5 = p_a * v4;
+    let v6 = S::select(v2, x_self, S::constant(0.0));
+    let v7 = v5 + v6;
+    let v8 = S::select(v2, S::constant(0.0), x_self);
     (
         [
-            [S::constant(0.0), v5, S::constant(1.0)],
-            [S::constant(1.0), v11, S::constant(0.0)],
+            [S::constant(0.0), v3, S::constant(1.0)],
+            [S::constant(1.0), v7, S::constant(0.0)],
         ],
         [
             [S::constant(0.0), v0, S::constant(0.0)],
-            [S::constant(0.0), v12, S::constant(0.0)],
+            [S::constant(0.0), v8, S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         ],
@@ -2148,7 +2135,7 @@ fn d_measures<S: scalar::Scalar>(
     functionals: &[S],
     p: &[S; PARAMETERS],
 ) -> ([S; 35], [[S; PARAMETERS]; 5]) {
-    let &[f0, f1, f2, f3, f4, f5, f6] = functionals else {
+    let &[f0, _, f2, f3, f4, f5, _] = functionals else {
         return ([nan(); 35], [[nan(); PARAMETERS]; 5])
     };
     let &[p_a, _, _, _] = p;
@@ -2299,126 +2286,125 @@ fn tangent_flow_first<S: scalar::Scalar, const C: usize>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::not(b1);
-    let v70 = S::select(b1, x_Y, x_x);
-    let v71 = S::select(b2, x_x, p_a);
-    let v72 = v70 + v71;
-    let v73 = S::select(b3, v68, v72);
-    let v74 = v66 + v73;
-    let v75 = S::constant(-1.0).pow(n_n);
-    let v76 = v75 * tau;
-    let v77 = v74 + v76;
-    let v78 = x_x.cos();
-    let v79 = v2.cos();
-    let v80 = v79 * v79;
-    let v81 = p_a / v80;
-    let v82 = v1 * v81;
-    let v83 = v78 + v82;
-    let v84 = S::constant(0.25) * p_a;
-    let v85 = v6 * v6;
-    let v86 = S::constant(1.0) - v85;
-    let v87 = v86.sqrt();
-    let v88 = v84 / v87;
-    let v89 = v83 + v88;
-    let v90 = v13 * v13;
-    let v91 = S::constant(1.0) + v90;
-    let v92 = p_b / v91;
-    let v93 = v89 + v92;
-    let v94 = v16 * v16;
-    let v95 = v17 * v17;
-    let v96 = v94 + v95;
-    let v97 = v17 / v96;
-    let v98 = v93 + v97;
-    let v99 = v2.cosh();
-    let v100 = v99 * p_a;
-    let v101 = v91.sqrt();
-    let v102 = p_b / v101;
-    let v103 = v100 + v102;
-    let v104 = v28 - S::constant(1.0);
-    let v105 = v104.sqrt();
-    let v106 = S::constant(1.0) / v105;
-    let v107 = v28 + S::constant(1.0);
-    let v108 = v107.sqrt();
-    let v109 = v106 / v108;
-    let v110 = x_x + x_x;
-    let v111 = v109 * v110;
-    let v112 = v103 + v111;
-    let v113 = v84 / v86;
-    let v114 = v112 + v113;
-    let v115 = S::constant(0.1) * v114;
-    let v116 = v98 + v115;
-    let v117 = x_x * v110;
-    let v118 = v27 + v117;
-    let v119 = v110 + v118;
-    let v120 = v39 / v38;
-    let v121 = v37 + v37;
-    let v122 = v120 * v121;
-    let v123 = S::constant(0.01) * v122;
-    let v124 = v119 - v123;
-    let v125 = x_x / v43;
-    let v126 = v124 + v125;
-    let v127 = v42.pow(S::constant(1.5));
-    let v128 = S::constant(2.5) * v127;
-    let v129 = v128 * v110;
-    let v130 = v126 + v129;
-    let v131 = p_c - S::constant(1.0);
-    let v132 = v42.pow(v131);
-    let v133 = p_c * v132;
-    let v134 = v133 * v110;
-    let v135 = v130 + v134;
-    let v136 = v49 / v43;
-    let v137 = v136 * v125;
-    let v138 = v135 - v137;
-    let v139 = S::constant(0.1) * v138;
-    let v140 = v110 / v55;
-    let v141 = v53 * v110;
-    let v142 = v140 - v141;
-    let v143 = v59 * v142;
-    let v144 = v139 + v143;
-    let v145 = v144 + S::constant(-1.0);
-    let v146 = v63 + v63;
-    let v147 = S::constant(1.0) / v146;
-    let v148 = x_x / v146;
-    let v149 = v63 + v148;
-    let v150 = v147 + v149;
-    let v151 = -v110;
-    let v152 = S::select(b0, v150, v151);
-    let v153 = S::select(b0, x_Y, v78);
-    let v154 = S::select(v69, S::constant(1.0), S::constant(0.0));
-    let v155 = S::select(b2, S::constant(1.0), S::constant(0.0));
-    let v156 = v154 + v155;
-    let v157 = S::select(b3, v153, v156);
-    let v158 = v152 + v157;
-    let v159 = v9.sinh();
-    let v160 = v159 * p_a;
-    let v161 = S::constant(0.1) * v160;
-    let v162 = x_Y.sin();
-    let v163 = v3 * v162;
-    let v164 = v10 * v10;
-    let v165 = S::constant(1.0) - v164;
-    let v166 = v165.sqrt();
-    let v167 = S::constant(-1.0) / v166;
-    let v168 = v167 * v84;
-    let v169 = v163 + v168;
-    let v170 = v16 / v96;
-    let v171 = v169 + v170;
-    let v172 = v161 - v171;
-    let v173 = S::select(b0, x_x, S::constant(0.0));
-    let v174 = S::select(b1, S::constant(1.0), S::constant(0.0));
-    let v175 = S::select(b3, v173, v174);
-    let v176 = v23 * v23;
-    let v177 = S::constant(1.0) - v176;
-    let v178 = S::constant(0.1) * v177;
+    let v69 = S::select(b1, x_Y, x_x);
+    let v70 = S::select(b2, x_x, p_a);
+    let v71 = v69 + v70;
+    let v72 = S::select(b3, v68, v71);
+    let v73 = v66 + v72;
+    let v74 = S::constant(-1.0).pow(n_n);
+    let v75 = v74 * tau;
+    let v76 = v73 + v75;
+    let v77 = x_x.cos();
+    let v78 = v2.cos();
+    let v79 = v78 * v78;
+    let v80 = p_a / v79;
+    let v81 = v1 * v80;
+    let v82 = v77 + v81;
+    let v83 = S::constant(0.25) * p_a;
+    let v84 = v6 * v6;
+    let v85 = S::constant(1.0) - v84;
+    let v86 = v85.sqrt();
+    let v87 = v83 / v86;
+    let v88 = v82 + v87;
+    let v89 = v13 * v13;
+    let v90 = S::constant(1.0) + v89;
+    let v91 = p_b / v90;
+    let v92 = v88 + v91;
+    let v93 = v16 * v16;
+    let v94 = v17 * v17;
+    let v95 = v93 + v94;
+    let v96 = v17 / v95;
+    let v97 = v92 + v96;
+    let v98 = v2.cosh();
+    let v99 = v98 * p_a;
+    let v100 = v90.sqrt();
+    let v101 = p_b / v100;
+    let v102 = v99 + v101;
+    let v103 = v28 - S::constant(1.0);
+    let v104 = v103.sqrt();
+    let v105 = S::constant(1.0) / v104;
+    let v106 = v28 + S::constant(1.0);
+    let v107 = v106.sqrt();
+    let v108 = v105 / v107;
+    let v109 = x_x + x_x;
+    let v110 = v108 * v109;
+    let v111 = v102 + v110;
+    let v112 = v83 / v85;
+    let v113 = v111 + v112;
+    let v114 = S::constant(0.1) * v113;
+    let v115 = v97 + v114;
+    let v116 = x_x * v109;
+    let v117 = v27 + v116;
+    let v118 = v109 + v117;
+    let v119 = v39 / v38;
+    let v120 = v37 + v37;
+    let v121 = v119 * v120;
+    let v122 = S::constant(0.01) * v121;
+    let v123 = v118 - v122;
+    let v124 = x_x / v43;
+    let v125 = v123 + v124;
+    let v126 = v42.pow(S::constant(1.5));
+    let v127 = S::constant(2.5) * v126;
+    let v128 = v127 * v109;
+    let v129 = v125 + v128;
+    let v130 = p_c - S::constant(1.0);
+    let v131 = v42.pow(v130);
+    let v132 = p_c * v131;
+    let v133 = v132 * v109;
+    let v134 = v129 + v133;
+    let v135 = v49 / v43;
+    let v136 = v135 * v124;
+    let v137 = v134 - v136;
+    let v138 = S::constant(0.1) * v137;
+    let v139 = v109 / v55;
+    let v140 = v53 * v109;
+    let v141 = v139 - v140;
+    let v142 = v59 * v141;
+    let v143 = v138 + v142;
+    let v144 = v143 + S::constant(-1.0);
+    let v145 = v63 + v63;
+    let v146 = S::constant(1.0) / v145;
+    let v147 = x_x / v145;
+    let v148 = v63 + v147;
+    let v149 = v146 + v148;
+    let v150 = -v109;
+    let v151 = S::select(b0, v149, v150);
+    let v152 = S::select(b0, x_Y, v77);
+    let v153 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v154 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v155 = v153 + v154;
+    let v156 = S::select(b3, v152, v155);
+    let v157 = v151 + v156;
+    let v158 = v9.sinh();
+    let v159 = v158 * p_a;
+    let v160 = S::constant(0.1) * v159;
+    let v161 = x_Y.sin();
+    let v162 = v3 * v161;
+    let v163 = v10 * v10;
+    let v164 = S::constant(1.0) - v163;
+    let v165 = v164.sqrt();
+    let v166 = S::constant(-1.0) / v165;
+    let v167 = v166 * v83;
+    let v168 = v162 + v167;
+    let v169 = v16 / v95;
+    let v170 = v168 + v169;
+    let v171 = v160 - v170;
+    let v172 = S::select(b0, x_x, S::constant(0.0));
+    let v173 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v174 = S::select(b3, v172, v173);
+    let v175 = v23 * v23;
+    let v176 = S::constant(1.0) - v175;
+    let v177 = S::constant(0.1) * v176;
     let mut products = [[S::constant(0.0); STATES]; C];
     for (product, column) in products.iter_mut().zip(columns) {
         let &[dx_x, dx_Y, dx_self] = column;
         *product = [
-            v116 * dx_x + v172 * dx_Y + v178 * dx_self,
-            v145 * dx_x,
-            v158 * dx_x + v175 * dx_Y,
+            v115 * dx_x + v171 * dx_Y + v177 * dx_self,
+            v144 * dx_x,
+            v157 * dx_x + v174 * dx_Y,
         ];
     }
-    ([v34, v62, v77], products)
+    ([v34, v62, v76], products)
 }
 
 /// State derivative f and integrands of mode `first` and, for each column (v, w),
@@ -2521,143 +2507,140 @@ fn tangent_integrated_first<S: scalar::Scalar, const C: usize>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::not(b3);
-    let v70 = S::not(b1);
-    let v71 = S::select(b1, x_Y, x_x);
-    let v72 = S::not(b2);
-    let v73 = S::select(b2, x_x, p_a);
-    let v74 = v71 + v73;
-    let v75 = S::select(b3, v68, v74);
-    let v76 = v66 + v75;
-    let v77 = S::constant(-1.0).pow(n_n);
-    let v78 = v77 * tau;
-    let v79 = v76 + v78;
-    let v80 = x_x.cos();
-    let v81 = v2.cos();
-    let v82 = v81 * v81;
-    let v83 = p_a / v82;
-    let v84 = v1 * v83;
-    let v85 = v80 + v84;
-    let v86 = S::constant(0.25) * p_a;
-    let v87 = v6 * v6;
-    let v88 = S::constant(1.0) - v87;
-    let v89 = v88.sqrt();
-    let v90 = v86 / v89;
-    let v91 = v85 + v90;
-    let v92 = v13 * v13;
-    let v93 = S::constant(1.0) + v92;
-    let v94 = p_b / v93;
-    let v95 = v91 + v94;
-    let v96 = v16 * v16;
-    let v97 = v17 * v17;
-    let v98 = v96 + v97;
-    let v99 = v17 / v98;
-    let v100 = v95 + v99;
-    let v101 = v2.cosh();
-    let v102 = v101 * p_a;
-    let v103 = v93.sqrt();
-    let v104 = p_b / v103;
-    let v105 = v102 + v104;
-    let v106 = v28 - S::constant(1.0);
+    let v69 = S::select(b1, x_Y, x_x);
+    let v70 = S::select(b2, x_x, p_a);
+    let v71 = v69 + v70;
+    let v72 = S::select(b3, v68, v71);
+    let v73 = v66 + v72;
+    let v74 = S::constant(-1.0).pow(n_n);
+    let v75 = v74 * tau;
+    let v76 = v73 + v75;
+    let v77 = x_x.cos();
+    let v78 = v2.cos();
+    let v79 = v78 * v78;
+    let v80 = p_a / v79;
+    let v81 = v1 * v80;
+    let v82 = v77 + v81;
+    let v83 = S::constant(0.25) * p_a;
+    let v84 = v6 * v6;
+    let v85 = S::constant(1.0) - v84;
+    let v86 = v85.sqrt();
+    let v87 = v83 / v86;
+    let v88 = v82 + v87;
+    let v89 = v13 * v13;
+    let v90 = S::constant(1.0) + v89;
+    let v91 = p_b / v90;
+    let v92 = v88 + v91;
+    let v93 = v16 * v16;
+    let v94 = v17 * v17;
+    let v95 = v93 + v94;
+    let v96 = v17 / v95;
+    let v97 = v92 + v96;
+    let v98 = v2.cosh();
+    let v99 = v98 * p_a;
+    let v100 = v90.sqrt();
+    let v101 = p_b / v100;
+    let v102 = v99 + v101;
+    let v103 = v28 - S::constant(1.0);
+    let v104 = v103.sqrt();
+    let v105 = S::constant(1.0) / v104;
+    let v106 = v28 + S::constant(1.0);
     let v107 = v106.sqrt();
-    let v108 = S::constant(1.0) / v107;
-    let v109 = v28 + S::constant(1.0);
-    let v110 = v109.sqrt();
-    let v111 = v108 / v110;
-    let v112 = x_x + x_x;
-    let v113 = v111 * v112;
-    let v114 = v105 + v113;
-    let v115 = v86 / v88;
-    let v116 = v114 + v115;
-    let v117 = S::constant(0.1) * v116;
-    let v118 = v100 + v117;
-    let v119 = x_x * v112;
-    let v120 = v27 + v119;
-    let v121 = v112 + v120;
-    let v122 = v39 / v38;
-    let v123 = v37 + v37;
-    let v124 = v122 * v123;
-    let v125 = S::constant(0.01) * v124;
-    let v126 = v121 - v125;
-    let v127 = x_x / v43;
-    let v128 = v126 + v127;
-    let v129 = v42.pow(S::constant(1.5));
-    let v130 = S::constant(2.5) * v129;
-    let v131 = v130 * v112;
-    let v132 = v128 + v131;
-    let v133 = p_c - S::constant(1.0);
-    let v134 = v42.pow(v133);
-    let v135 = p_c * v134;
-    let v136 = v135 * v112;
-    let v137 = v132 + v136;
-    let v138 = v49 / v43;
-    let v139 = v138 * v127;
-    let v140 = v137 - v139;
-    let v141 = S::constant(0.1) * v140;
-    let v142 = v112 / v55;
-    let v143 = v53 * v112;
-    let v144 = v142 - v143;
-    let v145 = v59 * v144;
-    let v146 = v141 + v145;
-    let v147 = v146 + S::constant(-1.0);
-    let v148 = v63 + v63;
-    let v149 = S::constant(1.0) / v148;
-    let v150 = x_x / v148;
-    let v151 = v63 + v150;
-    let v152 = v149 + v151;
-    let v153 = -v112;
-    let v154 = S::select(b0, v152, v153);
-    let v155 = S::select(b0, x_Y, v80);
-    let v156 = S::select(v70, S::constant(1.0), S::constant(0.0));
-    let v157 = S::select(b2, S::constant(1.0), S::constant(0.0));
-    let v158 = v156 + v157;
-    let v159 = S::select(b3, v155, v158);
-    let v160 = v154 + v159;
-    let v161 = v9.sinh();
-    let v162 = v161 * p_a;
-    let v163 = S::constant(0.1) * v162;
-    let v164 = x_Y.sin();
-    let v165 = v3 * v164;
-    let v166 = v10 * v10;
-    let v167 = S::constant(1.0) - v166;
-    let v168 = v167.sqrt();
-    let v169 = S::constant(-1.0) / v168;
-    let v170 = v169 * v86;
-    let v171 = v165 + v170;
-    let v172 = v16 / v98;
-    let v173 = v171 + v172;
-    let v174 = v163 - v173;
-    let v175 = S::select(b0, x_x, S::constant(0.0));
-    let v176 = S::select(b1, S::constant(1.0), S::constant(0.0));
-    let v177 = S::select(b3, v175, v176);
-    let v178 = v23 * v23;
-    let v179 = S::constant(1.0) - v178;
-    let v180 = S::constant(0.1) * v179;
-    let v181 = x_x / v82;
-    let v182 = v1 * v181;
-    let v183 = S::constant(0.25) * x_x;
-    let v184 = v183 / v89;
-    let v185 = v182 + v184;
-    let v186 = S::constant(0.25) * x_Y;
-    let v187 = v169 * v186;
-    let v188 = v185 - v187;
-    let v189 = v101 * x_x;
-    let v190 = v161 * x_Y;
-    let v191 = v189 + v190;
-    let v192 = v183 / v88;
-    let v193 = v191 + v192;
-    let v194 = S::constant(0.1) * v193;
-    let v195 = v188 + v194;
-    let v196 = S::select(v72, S::constant(1.0), S::constant(0.0));
-    let v197 = S::select(v69, v196, S::constant(0.0));
-    let v198 = x_x / v93;
-    let v199 = x_x / v103;
-    let v200 = S::constant(0.1) * v199;
-    let v201 = v198 + v200;
-    let v202 = v42.ln();
-    let v203 = v202 * v47;
-    let v204 = S::constant(0.1) * v203;
-    let v205 = v59 / v55;
+    let v108 = v105 / v107;
+    let v109 = x_x + x_x;
+    let v110 = v108 * v109;
+    let v111 = v102 + v110;
+    let v112 = v83 / v85;
+    let v113 = v111 + v112;
+    let v114 = S::constant(0.1) * v113;
+    let v115 = v97 + v114;
+    let v116 = x_x * v109;
+    let v117 = v27 + v116;
+    let v118 = v109 + v117;
+    let v119 = v39 / v38;
+    let v120 = v37 + v37;
+    let v121 = v119 * v120;
+    let v122 = S::constant(0.01) * v121;
+    let v123 = v118 - v122;
+    let v124 = x_x / v43;
+    let v125 = v123 + v124;
+    let v126 = v42.pow(S::constant(1.5));
+    let v127 = S::constant(2.5) * v126;
+    let v128 = v127 * v109;
+    let v129 = v125 + v128;
+    let v130 = p_c - S::constant(1.0);
+    let v131 = v42.pow(v130);
+    let v132 = p_c * v131;
+    let v133 = v132 * v109;
+    let v134 = v129 + v133;
+    let v135 = v49 / v43;
+    let v136 = v135 * v124;
+    let v137 = v134 - v136;
+    let v138 = S::constant(0.1) * v137;
+    let v139 = v109 / v55;
+    let v140 = v53 * v109;
+    let v141 = v139 - v140;
+    let v142 = v59 * v141;
+    let v143 = v138 + v142;
+    let v144 = v143 + S::constant(-1.0);
+    let v145 = v63 + v63;
+    let v146 = S::constant(1.0) / v145;
+    let v147 = x_x / v145;
+    let v148 = v63 + v147;
+    let v149 = v146 + v148;
+    let v150 = -v109;
+    let v151 = S::select(b0, v149, v150);
+    let v152 = S::select(b0, x_Y, v77);
+    let v153 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v154 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v155 = v153 + v154;
+    let v156 = S::select(b3, v152, v155);
+    let v157 = v151 + v156;
+    let v158 = v9.sinh();
+    let v159 = v158 * p_a;
+    let v160 = S::constant(0.1) * v159;
+    let v161 = x_Y.sin();
+    let v162 = v3 * v161;
+    let v163 = v10 * v10;
+    let v164 = S::constant(1.0) - v163;
+    let v165 = v164.sqrt();
+    let v166 = S::constant(-1.0) / v165;
+    let v167 = v166 * v83;
+    let v168 = v162 + v167;
+    let v169 = v16 / v95;
+    let v170 = v168 + v169;
+    let v171 = v160 - v170;
+    let v172 = S::select(b0, x_x, S::constant(0.0));
+    let v173 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v174 = S::select(b3, v172, v173);
+    let v175 = v23 * v23;
+    let v176 = S::constant(1.0) - v175;
+    let v177 = S::constant(0.1) * v176;
+    let v178 = x_x / v79;
+    let v179 = v1 * v178;
+    let v180 = S::constant(0.25) * x_x;
+    let v181 = v180 / v86;
+    let v182 = v179 + v181;
+    let v183 = S::constant(0.25) * x_Y;
+    let v184 = v166 * v183;
+    let v185 = v182 - v184;
+    let v186 = v98 * x_x;
+    let v187 = v158 * x_Y;
+    let v188 = v186 + v187;
+    let v189 = v180 / v85;
+    let v190 = v188 + v189;
+    let v191 = S::constant(0.1) * v190;
+    let v192 = v185 + v191;
+    let v193 = S::select(b2, S::constant(0.0), S::constant(1.0));
+    let v194 = S::select(b3, S::constant(0.0), v193);
+    let v195 = x_x / v90;
+    let v196 = x_x / v100;
+    let v197 = S::constant(0.1) * v196;
+    let v198 = v195 + v197;
+    let v199 = v42.ln();
+    let v200 = v199 * v47;
+    let v201 = S::constant(0.1) * v200;
+    let v202 = v59 / v55;
     let mut dflow = [[S::constant(0.0); STATES]; C];
     let mut dintegrands = [[S::constant(0.0); INTEGRALS]; C];
     let results = dflow.iter_mut().zip(dintegrands.iter_mut());
@@ -2665,14 +2648,14 @@ fn tangent_integrated_first<S: scalar::Scalar, const C: usize>(
         let &[dx_x, dx_Y, dx_self] = dx;
         let &[dp_a, dp_b, dp_c, dp_type] = dp;
         *dflow = [
-            v118 * dx_x + v174 * dx_Y + v180 * dx_self + v195 * dp_a + v201 * dp_b,
-            v147 * dx_x + v204 * dp_c + v205 * dp_type,
-            v160 * dx_x + v177 * dx_Y + v197 * dp_a,
+            v115 * dx_x + v171 * dx_Y + v177 * dx_self + v192 * dp_a + v198 * dp_b,
+            v144 * dx_x + v201 * dp_c + v202 * dp_type,
+            v157 * dx_x + v174 * dx_Y + v194 * dp_a,
         ];
         *dintegrands = [x_Y * dx_x + x_x * dx_Y];
     }
     model::Integrated {
-        flow: [v34, v62, v79],
+        flow: [v34, v62, v76],
         integrands: [v67],
         dflow,
         dintegrands,

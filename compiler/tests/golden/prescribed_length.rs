@@ -456,23 +456,22 @@ fn integrated_stance<S: scalar::Scalar>(
     let v29 = v27 + v28;
     let v30 = -v29;
     let v31 = S::select(b1, v29, v30);
-    let v32 = S::not(b3);
-    let v33 = v2 * p_omega;
-    let v34 = p_omega * v33;
-    let v35 = v0 * v34;
-    let v36 = p_m * v35;
-    let v37 = S::select(b0, v36, S::constant(0.0));
-    let v38 = p_m * p_g;
-    let v39 = v38 * v20;
-    let v40 = v37 + v39;
-    let v41 = x_p_theta * x_p_theta;
-    let v42 = p_m * v41;
-    let v43 = v42 / v6;
-    let v44 = v40 + v43;
-    let v45 = v44 * v12;
-    let v46 = S::select(b0, v45, S::constant(0.0));
-    let v47 = S::select(v32, v46, S::constant(0.0));
-    ([v7, v18], [v24, v31, v47])
+    let v32 = v2 * p_omega;
+    let v33 = p_omega * v32;
+    let v34 = v0 * v33;
+    let v35 = p_m * v34;
+    let v36 = S::select(b0, v35, S::constant(0.0));
+    let v37 = p_m * p_g;
+    let v38 = v37 * v20;
+    let v39 = v36 + v38;
+    let v40 = x_p_theta * x_p_theta;
+    let v41 = p_m * v40;
+    let v42 = v41 / v6;
+    let v43 = v39 + v42;
+    let v44 = v43 * v12;
+    let v45 = S::select(b0, v44, S::constant(0.0));
+    let v46 = S::select(b3, S::constant(0.0), v45);
+    ([v7, v18], [v24, v31, v46])
 }
 
 /// Residual F = M k - f of mode `stance`, k the rates of the states.
@@ -1301,9 +1300,7 @@ fn d_embed<S: scalar::Scalar>(
     z: &[S],
     _p: &[S; PARAMETERS],
 ) -> ([[S; STATES]; 2], [[S; STATES]; PARAMETERS]) {
-    let &[x_q_theta, x_p_theta] = z else {
-        return ([nan_state(); 2], [nan_state(); PARAMETERS])
-    };
+    let &[_, _] = z else { return ([nan_state(); 2], [nan_state(); PARAMETERS]) };
     (
         [[S::constant(1.0), S::constant(0.0)], [S::constant(0.0), S::constant(1.0)]],
         [
@@ -1456,7 +1453,7 @@ fn d_measures<S: scalar::Scalar>(
     functionals: &[S],
     p: &[S; PARAMETERS],
 ) -> ([S; 42], [[S; PARAMETERS]; 7]) {
-    let &[f0, f1, f2, f3, f4, f5] = functionals else {
+    let &[f0, _, f2, _, _, f5] = functionals else {
         return ([nan(); 42], [[nan(); PARAMETERS]; 7])
     };
     let &[_, _, p_m, p_g, _, _] = p;
@@ -1693,131 +1690,130 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v29 = v27 + v28;
     let v30 = -v29;
     let v31 = S::select(b1, v29, v30);
-    let v32 = S::not(b3);
-    let v33 = v2 * p_omega;
-    let v34 = p_omega * v33;
-    let v35 = v0 * v34;
-    let v36 = p_m * v35;
-    let v37 = S::select(b0, v36, S::constant(0.0));
-    let v38 = p_m * p_g;
-    let v39 = v38 * v20;
-    let v40 = v37 + v39;
-    let v41 = x_p_theta * x_p_theta;
-    let v42 = p_m * v41;
-    let v43 = v42 / v6;
-    let v44 = v40 + v43;
-    let v45 = v44 * v12;
-    let v46 = S::select(b0, v45, S::constant(0.0));
-    let v47 = S::select(v32, v46, S::constant(0.0));
-    let v48 = p_g * v20;
-    let v49 = -v48;
-    let v50 = v28 + v27;
-    let v51 = v23 - v19;
-    let v52 = -v51;
-    let v53 = S::select(b1, v51, v52);
-    let v54 = v38 * v8;
-    let v55 = v12 * v54;
-    let v56 = -v55;
-    let v57 = S::select(b0, v56, S::constant(0.0));
-    let v58 = S::select(v32, v57, S::constant(0.0));
-    let v59 = S::constant(1.0) / v6;
-    let v60 = v12 / v6;
-    let v61 = S::select(b0, v60, S::constant(0.0));
-    let v62 = -v20;
-    let v63 = S::select(b1, v20, v62);
-    let v64 = x_p_theta + x_p_theta;
-    let v65 = p_m * v64;
-    let v66 = v65 / v6;
-    let v67 = v12 * v66;
-    let v68 = S::select(b0, v67, S::constant(0.0));
-    let v69 = S::select(v32, v68, S::constant(0.0));
-    let v70 = v7 / v6;
-    let v71 = S::constant(0.5) * v3;
-    let v72 = v70 * v71;
-    let v73 = -v72;
-    let v74 = S::select(b0, v73, S::constant(0.0));
-    let v75 = S::constant(0.5) * v11;
-    let v76 = x_p_theta * v75;
-    let v77 = v76 / v6;
-    let v78 = v16 / v6;
-    let v79 = v78 * v71;
-    let v80 = v77 + v79;
-    let v81 = S::select(b0, v80, S::constant(0.0));
-    let v82 = v20 * v75;
-    let v83 = S::select(b0, v82, S::constant(0.0));
-    let v84 = v8 * v75;
-    let v85 = -v84;
-    let v86 = S::select(b0, v85, S::constant(0.0));
-    let v87 = S::select(b0, v84, S::constant(0.0));
-    let v88 = S::select(b1, v86, v87);
-    let v89 = S::constant(0.5) * v34;
-    let v90 = p_m * v89;
-    let v91 = v43 / v6;
-    let v92 = v91 * v71;
-    let v93 = v90 - v92;
-    let v94 = v12 * v93;
-    let v95 = S::select(b0, v94, S::constant(0.0));
-    let v96 = v44 * v75;
-    let v97 = v95 + v96;
-    let v98 = S::select(b0, v97, S::constant(0.0));
-    let v99 = S::select(v32, v98, S::constant(0.0));
-    let v100 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v101 = v70 * v100;
-    let v102 = -v101;
-    let v103 = v78 * v100;
-    let v104 = v91 * v100;
-    let v105 = v12 * v104;
-    let v106 = -v105;
-    let v107 = S::select(b0, v106, S::constant(0.0));
-    let v108 = S::select(v32, v107, S::constant(0.0));
-    let v109 = S::select(b0, v35, S::constant(0.0));
-    let v110 = v20 * p_g;
-    let v111 = v109 + v110;
-    let v112 = v41 / v6;
-    let v113 = v111 + v112;
-    let v114 = v12 * v113;
-    let v115 = S::select(b0, v114, S::constant(0.0));
-    let v116 = S::select(v32, v115, S::constant(0.0));
-    let v117 = -v8;
-    let v118 = v20 * p_m;
-    let v119 = v12 * v118;
-    let v120 = S::select(b0, v119, S::constant(0.0));
-    let v121 = S::select(v32, v120, S::constant(0.0));
-    let v122 = v10 * tau;
-    let v123 = v0 * v122;
-    let v124 = v70 * v123;
-    let v125 = S::select(b0, v124, S::constant(0.0));
-    let v126 = v78 * v123;
-    let v127 = v2 * tau;
-    let v128 = p_omega * v127;
-    let v129 = v128 + v10;
-    let v130 = v0 * v129;
-    let v131 = x_p_theta * v130;
-    let v132 = v131 / v6;
-    let v133 = v126 - v132;
-    let v134 = -v133;
-    let v135 = S::select(b0, v134, S::constant(0.0));
-    let v136 = v20 * v130;
-    let v137 = S::select(b0, v136, S::constant(0.0));
-    let v138 = v8 * v130;
-    let v139 = -v138;
-    let v140 = S::select(b0, v139, S::constant(0.0));
-    let v141 = S::select(b0, v138, S::constant(0.0));
-    let v142 = S::select(b1, v140, v141);
-    let v143 = p_omega * v122;
-    let v144 = v2 - v143;
-    let v145 = p_omega * v144;
-    let v146 = v33 + v145;
-    let v147 = v0 * v146;
-    let v148 = p_m * v147;
-    let v149 = v91 * v123;
-    let v150 = v148 + v149;
-    let v151 = v12 * v150;
-    let v152 = S::select(b0, v151, S::constant(0.0));
-    let v153 = v44 * v130;
-    let v154 = v152 + v153;
-    let v155 = S::select(b0, v154, S::constant(0.0));
-    let v156 = S::select(v32, v155, S::constant(0.0));
+    let v32 = v2 * p_omega;
+    let v33 = p_omega * v32;
+    let v34 = v0 * v33;
+    let v35 = p_m * v34;
+    let v36 = S::select(b0, v35, S::constant(0.0));
+    let v37 = p_m * p_g;
+    let v38 = v37 * v20;
+    let v39 = v36 + v38;
+    let v40 = x_p_theta * x_p_theta;
+    let v41 = p_m * v40;
+    let v42 = v41 / v6;
+    let v43 = v39 + v42;
+    let v44 = v43 * v12;
+    let v45 = S::select(b0, v44, S::constant(0.0));
+    let v46 = S::select(b3, S::constant(0.0), v45);
+    let v47 = p_g * v20;
+    let v48 = -v47;
+    let v49 = v28 + v27;
+    let v50 = v23 - v19;
+    let v51 = -v50;
+    let v52 = S::select(b1, v50, v51);
+    let v53 = v37 * v8;
+    let v54 = v12 * v53;
+    let v55 = -v54;
+    let v56 = S::select(b0, v55, S::constant(0.0));
+    let v57 = S::select(b3, S::constant(0.0), v56);
+    let v58 = S::constant(1.0) / v6;
+    let v59 = v12 / v6;
+    let v60 = S::select(b0, v59, S::constant(0.0));
+    let v61 = -v20;
+    let v62 = S::select(b1, v20, v61);
+    let v63 = x_p_theta + x_p_theta;
+    let v64 = p_m * v63;
+    let v65 = v64 / v6;
+    let v66 = v12 * v65;
+    let v67 = S::select(b0, v66, S::constant(0.0));
+    let v68 = S::select(b3, S::constant(0.0), v67);
+    let v69 = v7 / v6;
+    let v70 = S::constant(0.5) * v3;
+    let v71 = v69 * v70;
+    let v72 = -v71;
+    let v73 = S::select(b0, v72, S::constant(0.0));
+    let v74 = S::constant(0.5) * v11;
+    let v75 = x_p_theta * v74;
+    let v76 = v75 / v6;
+    let v77 = v16 / v6;
+    let v78 = v77 * v70;
+    let v79 = v76 + v78;
+    let v80 = S::select(b0, v79, S::constant(0.0));
+    let v81 = v20 * v74;
+    let v82 = S::select(b0, v81, S::constant(0.0));
+    let v83 = v8 * v74;
+    let v84 = -v83;
+    let v85 = S::select(b0, v84, S::constant(0.0));
+    let v86 = S::select(b0, v83, S::constant(0.0));
+    let v87 = S::select(b1, v85, v86);
+    let v88 = S::constant(0.5) * v33;
+    let v89 = p_m * v88;
+    let v90 = v42 / v6;
+    let v91 = v90 * v70;
+    let v92 = v89 - v91;
+    let v93 = v12 * v92;
+    let v94 = S::select(b0, v93, S::constant(0.0));
+    let v95 = v43 * v74;
+    let v96 = v94 + v95;
+    let v97 = S::select(b0, v96, S::constant(0.0));
+    let v98 = S::select(b3, S::constant(0.0), v97);
+    let v99 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v100 = v69 * v99;
+    let v101 = -v100;
+    let v102 = v77 * v99;
+    let v103 = v90 * v99;
+    let v104 = v12 * v103;
+    let v105 = -v104;
+    let v106 = S::select(b0, v105, S::constant(0.0));
+    let v107 = S::select(b3, S::constant(0.0), v106);
+    let v108 = S::select(b0, v34, S::constant(0.0));
+    let v109 = v20 * p_g;
+    let v110 = v108 + v109;
+    let v111 = v40 / v6;
+    let v112 = v110 + v111;
+    let v113 = v12 * v112;
+    let v114 = S::select(b0, v113, S::constant(0.0));
+    let v115 = S::select(b3, S::constant(0.0), v114);
+    let v116 = -v8;
+    let v117 = v20 * p_m;
+    let v118 = v12 * v117;
+    let v119 = S::select(b0, v118, S::constant(0.0));
+    let v120 = S::select(b3, S::constant(0.0), v119);
+    let v121 = v10 * tau;
+    let v122 = v0 * v121;
+    let v123 = v69 * v122;
+    let v124 = S::select(b0, v123, S::constant(0.0));
+    let v125 = v77 * v122;
+    let v126 = v2 * tau;
+    let v127 = p_omega * v126;
+    let v128 = v127 + v10;
+    let v129 = v0 * v128;
+    let v130 = x_p_theta * v129;
+    let v131 = v130 / v6;
+    let v132 = v125 - v131;
+    let v133 = -v132;
+    let v134 = S::select(b0, v133, S::constant(0.0));
+    let v135 = v20 * v129;
+    let v136 = S::select(b0, v135, S::constant(0.0));
+    let v137 = v8 * v129;
+    let v138 = -v137;
+    let v139 = S::select(b0, v138, S::constant(0.0));
+    let v140 = S::select(b0, v137, S::constant(0.0));
+    let v141 = S::select(b1, v139, v140);
+    let v142 = p_omega * v121;
+    let v143 = v2 - v142;
+    let v144 = p_omega * v143;
+    let v145 = v32 + v144;
+    let v146 = v0 * v145;
+    let v147 = p_m * v146;
+    let v148 = v90 * v122;
+    let v149 = v147 + v148;
+    let v150 = v12 * v149;
+    let v151 = S::select(b0, v150, S::constant(0.0));
+    let v152 = v43 * v129;
+    let v153 = v151 + v152;
+    let v154 = S::select(b0, v153, S::constant(0.0));
+    let v155 = S::select(b3, S::constant(0.0), v154);
     let mut dflow = [[S::constant(0.0); STATES]; C];
     let mut dintegrands = [[S::constant(0.0); INTEGRALS]; C];
     let results = dflow.iter_mut().zip(dintegrands.iter_mut());
@@ -1825,20 +1821,20 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
         let &[dx_q_theta, dx_p_theta] = dx;
         let &[dp_l_s, dp_l_b, dp_m, dp_g, _, dp_omega] = dp;
         *dflow = [
-            v59 * dx_p_theta + v74 * dp_l_s + v102 * dp_l_b + v125 * dp_omega,
-            v49 * dx_q_theta + v61 * dx_p_theta + v81 * dp_l_s + v103 * dp_l_b
-                + v117 * dp_g + v135 * dp_omega,
+            v58 * dx_p_theta + v73 * dp_l_s + v101 * dp_l_b + v124 * dp_omega,
+            v48 * dx_q_theta + v60 * dx_p_theta + v80 * dp_l_s + v102 * dp_l_b
+                + v116 * dp_g + v134 * dp_omega,
         ];
         *dintegrands = [
-            v50 * dx_q_theta + v8 * dx_p_theta + v83 * dp_l_s + v137 * dp_omega,
-            v53 * dx_q_theta + v63 * dx_p_theta + v88 * dp_l_s + v142 * dp_omega,
-            v58 * dx_q_theta + v69 * dx_p_theta + v99 * dp_l_s + v108 * dp_l_b
-                + v116 * dp_m + v121 * dp_g + v156 * dp_omega,
+            v49 * dx_q_theta + v8 * dx_p_theta + v82 * dp_l_s + v136 * dp_omega,
+            v52 * dx_q_theta + v62 * dx_p_theta + v87 * dp_l_s + v141 * dp_omega,
+            v57 * dx_q_theta + v68 * dx_p_theta + v98 * dp_l_s + v107 * dp_l_b
+                + v115 * dp_m + v120 * dp_g + v155 * dp_omega,
         ];
     }
     model::Integrated {
         flow: [v7, v18],
-        integrands: [v24, v31, v47],
+        integrands: [v24, v31, v46],
         dflow,
         dintegrands,
     }
