@@ -221,9 +221,7 @@ impl Config {
     fn registry(&self, folders: &Folders, folder: &Path, specs: &[Spec]) -> Result<String, BuildError> {
         let mounted: Result<Vec<Mounted>, BuildError> = specs
             .iter()
-            .map(|spec| {
-                Ok(Mounted { name: spec.name.clone(), spec: folders.spec_seen_from(folder, &spec.path)? })
-            })
+            .map(|spec| Ok(Mounted { name: spec.name.clone(), spec: folders.spec_seen_from(folder, &spec.path)? }))
             .collect();
         let text = registry(&mounted?, &self.runtime_path)
             .map_err(|source| BuildError::Emit { model: "mod".to_owned(), source })?;

@@ -65,8 +65,11 @@ mod tests {
         files(&root, "back", &mut found);
         files(&root, "casadi", &mut found);
         found.insert("valid/facts.rs".to_owned());
-        let listed: BTreeSet<String> =
-            SOURCES.iter().map(|(path, _)| (*path).to_owned()).chain(WITHOUT_INFLUENCE.iter().map(|p| (*p).to_owned())).collect();
+        let listed: BTreeSet<String> = SOURCES
+            .iter()
+            .map(|(path, _)| (*path).to_owned())
+            .chain(WITHOUT_INFLUENCE.iter().map(|p| (*p).to_owned()))
+            .collect();
         assert_eq!(found, listed);
     }
 }

@@ -52,6 +52,11 @@ pub enum Columns {
 }
 
 impl Columns {
+    /// Whether the generated function returns the value beside the Jacobian.
+    pub fn with_value(self) -> bool {
+        !matches!(self, Self::Coordinates | Self::Functionals)
+    }
+
     /// The symbols, in the order of the Jacobian's columns.
     pub fn symbols(self, model: &Model) -> Vec<Symbol> {
         let x = (0..model.states.len()).map(Symbol::State);

@@ -78,8 +78,11 @@ pub fn derive(python: &Python, models: &[&Validated]) -> Result<Vec<Programs>, C
                 .zip(tapes)
                 .map(|(function, tape)| {
                     let inputs = exchange::inputs(model.model());
-                    let program = tape::program(tape, &inputs).map_err(CasadiError::Answer)?;
-                    Ok((function, program))
+                    let mut program = tape::program(tape, &inputs).map_err(CasadiError::Answer)?;
+                    if !function.by.with_value() {
+                        program.values.clear();
+                    }
+                    Ok((function, program.without_dead_values()))
                 })
                 .collect()
         })

@@ -259,6 +259,10 @@ impl Builder {
                 _ => Ok(operation),
             },
             Operation::Select(_, b, c) if b == c => Err(b),
+            Operation::Select(mask, b, c) => Ok(match self.get(mask) {
+                Some(Operation::Not(opposite)) => Operation::Select(opposite, c, b),
+                _ => operation,
+            }),
             Operation::Unary(Unary::Neg, a) => match self.get(a) {
                 Some(Operation::Unary(Unary::Neg, inner)) => Err(inner),
                 _ => Ok(operation),
@@ -275,16 +279,15 @@ impl Builder {
     /// a + b, where the two halves of a choice become one selection again, and negated terms a difference.
     fn sum(&self, a: Value, b: Value) -> Operation {
         match (self.get(a), self.get(b)) {
-            (Some(Operation::Select(c, then, zero)), Some(Operation::Select(d, otherwise, also_zero)))
-                if self.is_zero(zero) && self.is_zero(also_zero) =>
+            (Some(Operation::Select(c, then, zero)), Some(Operation::Select(d, also_zero, otherwise)))
+                if c == d && self.is_zero(zero) && self.is_zero(also_zero) =>
             {
-                if self.get(d) == Some(Operation::Not(c)) {
-                    return Operation::Select(c, then, otherwise);
-                }
-                if self.get(c) == Some(Operation::Not(d)) {
-                    return Operation::Select(d, otherwise, then);
-                }
-                Operation::Binary(Binary::Add, a, b)
+                Operation::Select(c, then, otherwise)
+            }
+            (Some(Operation::Select(c, zero, otherwise)), Some(Operation::Select(d, then, also_zero)))
+                if c == d && self.is_zero(zero) && self.is_zero(also_zero) =>
+            {
+                Operation::Select(c, then, otherwise)
             }
             (_, Some(Operation::Unary(Unary::Neg, inner))) => Operation::Binary(Binary::Sub, a, inner),
             (Some(Operation::Unary(Unary::Neg, inner)), _) => Operation::Binary(Binary::Sub, b, inner),

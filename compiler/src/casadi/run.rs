@@ -27,12 +27,8 @@ pub fn run(python: &Python, request: &Request) -> Result<Response, CasadiError> 
 pub(super) fn converse(command: &mut Command, input: String) -> Result<Output, CasadiError> {
     let name = command.get_program().to_string_lossy().into_owned();
     let failed = |source| CasadiError::Process { command: name.clone(), source };
-    let mut child = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(failed)?;
+    let mut child =
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().map_err(failed)?;
     // On a thread of its own: a child that prints before it has read all would otherwise block both. A child that
     // ends early closes the pipe; its own output then says why, so that error of the write is of no interest.
     let writer = child.stdin.take().map(|mut stdin| {

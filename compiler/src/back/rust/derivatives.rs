@@ -198,7 +198,9 @@ fn measures(context: &Context<'_>) -> Result<TokenStream, EmitError> {
         })
         .collect();
     let doc = text::doc(&[
-        format!("Derivatives of the {count} measures: by the {f} functionals, one row a measure, and by the parameters."),
+        format!(
+            "Derivatives of the {count} measures: by the {f} functionals, one row a measure, and by the parameters."
+        ),
         String::new(),
         text::counts(program.counts()),
     ]);

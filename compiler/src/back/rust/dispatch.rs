@@ -216,10 +216,7 @@ fn section(context: &Context<'_>) -> TokenStream {
     let d = text::count(section.map_or(0, |s| s.coordinates.len()));
     let (embed, d_embed) = match section {
         Some(_) => (quote!(embed(z, p)), quote!(d_embed(z, p))),
-        None => (
-            quote!(let _ = (z, p); nan_state()),
-            quote!((([nan_state(); #d], [nan_state(); PARAMETERS]))),
-        ),
+        None => (quote!(let _ = (z, p); nan_state()), quote!(([nan_state(); #d], [nan_state(); PARAMETERS]))),
     };
     let unused = section.is_none().then(|| quote!(let _ = (z, p);));
     let (symmetry, d_symmetry) = if section.is_some_and(|s| s.symmetry.is_some()) {

@@ -103,7 +103,8 @@ fn runtime_path(path: &str) -> Result<TokenStream, EmitError> {
 /// Module documentation and lint levels.
 fn head(model: &Model) -> Result<String, EmitError> {
     let doc = format!(" Compiled model `{}`.", model.name);
-    let more = " Each function is straight-line code; `v0`, `v1`, ... are its shared subexpressions. SI units throughout.";
+    let more =
+        " Each function is straight-line code; `v0`, `v1`, ... are its shared subexpressions. SI units throughout.";
     text::pretty(quote! {
         #![doc = #doc]
         #![doc = ""]

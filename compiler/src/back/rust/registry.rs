@@ -26,7 +26,8 @@ pub fn registry(models: &[Mounted], runtime: &str) -> Result<String, EmitError> 
     file.push_str(&text::pretty(quote!(#(pub mod #modules;)*))?);
     file.push('\n');
     let entries = models.iter().map(|model| {
-        let (module, name, spec) = (format_ident!("{}", model.name), format_ident!("{}", names::camel(&model.name)), &model.spec);
+        let (module, name, spec) =
+            (format_ident!("{}", model.name), format_ident!("{}", names::camel(&model.name)), &model.spec);
         quote! {
             #runtime::registry::Entry {
                 compiled: &#runtime::hybrid::Hybrid::<

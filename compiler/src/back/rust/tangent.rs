@@ -149,9 +149,8 @@ impl<'a> Products<'a> {
 
     /// The pattern that binds the components of a column that occur in a product.
     fn pattern(&self, symbols: &[Symbol]) -> TokenStream {
-        let used = |symbol: &Symbol| {
-            self.program.jacobian.iter().any(|entry| self.symbols.get(entry.column) == Some(symbol))
-        };
+        let used =
+            |symbol: &Symbol| self.program.jacobian.iter().any(|entry| self.symbols.get(entry.column) == Some(symbol));
         let names = symbols.iter().map(|symbol| {
             if used(symbol) {
                 let name = names::variation(self.context.model(), *symbol);
@@ -169,10 +168,6 @@ impl<'a> Products<'a> {
         let rows = self.program.values.len();
         let filled = (0..rows).filter(|&row| self.program.jacobian.iter().any(|e| e.row == row)).count();
         let column = Counts { multiplications: entries, additions: entries - filled, ..Counts::default() };
-        format!(
-            "Once: {} A column, at most: {}",
-            text::counts(self.program.counts()),
-            text::counts(column)
-        )
+        format!("Once: {} A column, at most: {}", text::counts(self.program.counts()), text::counts(column))
     }
 }
