@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Room for derivatives: coordinates, parameters, measures.
-const ROOM: usize = 12;
+const ROOM: usize = 16;
 
 /// A number with derivatives.
 #[derive(Clone, Copy, Debug)]
