@@ -76,7 +76,8 @@ fn measures_differ(claimed: &MapResult, fresh: &MapResult) -> f64 {
 
 /// A fixed direction with a part along every coordinate, no two alike.
 fn disturbance(sizes: &DVector<f64>) -> DVector<f64> {
-    let shape = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 } / (1.0 + 0.37 * i as f64);
+    let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let shape = |i: usize| sign(i) / (1.0 + 0.37 * i as f64);
     DVector::from_fn(sizes.len(), |i, _| DISTURBANCE * sizes[i] * shape(i))
 }
 

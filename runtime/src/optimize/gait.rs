@@ -49,8 +49,8 @@ pub(super) fn map(
 pub(super) fn newton(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
     let accuracy = problem.settings.accuracy;
     let largest = guess.iter().fold(0.0, |a: f64, z| a.max(z.abs()));
-    let size = if largest > 0.0 { largest } else { 1.0 };
-    let sizes = DVector::from_iterator(guess.len(), guess.iter().map(|z| z.abs().max(1e-3 * size)));
+    let size = |z: &f64| if largest > 0.0 { z.abs().max(1e-3 * largest) } else { 1.0 };
+    let sizes = DVector::from_iterator(guess.len(), guess.iter().map(size));
     let mut z = DVector::from_column_slice(guess);
     let mut at = map(problem, parameters, z.as_slice(), accuracy, false)?;
     let mut residual = norm(&at, &z, &sizes);

@@ -63,7 +63,7 @@ struct Search<'p, 'a> {
     radius: f64,
     /// Inequalities are driven to this instead of 0, so that rounding does not leave them violated.
     margin: f64,
-    /// Steps left to bring inequalities that hold to the tolerance to hold strictly.
+    /// Steps left beyond the tolerance: they cost little, make constraints hold strictly and gain digits.
     spare: usize,
 }
 
@@ -110,8 +110,16 @@ impl Search<'_, '_> {
     /// `otherwise`, unless the point is good enough all the same.
     fn verdict(&self, multipliers: &Multipliers, otherwise: End) -> End {
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
+        if self.within_tolerance(kkt) {
+            return End::Converged;
+        }
         let good = kkt.optimality <= ACCEPTABLE.optimality && kkt.feasibility <= ACCEPTABLE.feasibility;
         if good { End::Acceptable } else { otherwise }
+    }
+
+    fn within_tolerance(&self, kkt: Kkt) -> bool {
+        let settings = &self.program.problem.settings;
+        kkt.optimality <= settings.optimality && kkt.feasibility <= settings.feasibility
     }
 
     fn iterate(&mut self, multipliers: &mut Multipliers) -> Result<Progress, ProblemError> {
@@ -130,9 +138,9 @@ impl Search<'_, '_> {
         };
         *multipliers = step.multipliers.clone();
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
-        if kkt.optimality <= settings.optimality && kkt.feasibility <= settings.feasibility {
-            // Within the tolerance; a few more steps usually bring the constraints to hold strictly.
-            if self.spare == 0 || self.point.c.iter().all(|c| *c >= 0.0) {
+        if self.within_tolerance(kkt) {
+            let strictly = self.point.c.iter().all(|c| *c >= 0.0) && kkt.optimality <= 1e-3 * settings.optimality;
+            if self.spare == 0 || strictly {
                 return Ok(Progress::Ended(End::Converged));
             }
             self.spare -= 1;
@@ -140,7 +148,7 @@ impl Search<'_, '_> {
         let problem = self.subproblem(&lower, &upper);
         let promised =
             self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
-        if promised <= 1e-15 * (1.0 + self.point.f.abs()) {
+        if promised < 0.0 || step.s.norm() < SMALLEST_RADIUS {
             return Ok(Progress::Ended(End::Stalled));
         }
         self.advance(&step, promised, &lower, &upper)?;

@@ -96,7 +96,7 @@ fn radical_inverse(mut number: usize, base: usize) -> f64 {
 
 /// Prime number `index` (from 0): 2, 3, 5, ...
 fn prime(index: usize) -> usize {
-    let is_prime = |n: &usize| (2..*n).take_while(|k| k * k <= *n).all(|k| n % k != 0);
+    let is_prime = |n: &usize| (2..*n).take_while(|k| k * k <= *n).all(|k| !n.is_multiple_of(k));
     (2..).filter(is_prime).nth(index).unwrap_or(2)
 }
 

@@ -178,7 +178,9 @@ fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
         let multiplier = f64::max(0.0, price * scale);
         priced.push((scaled, Active { kind: ActiveKind::Constraint(i), multiplier }));
     }
-    priced.retain(|(scaled, _)| *scaled > NEGLIGIBLE);
+    // What is below the residual of the conditions themselves says nothing.
+    let residual = kkt(program, &ended.point, &ended.lin, m).optimality;
+    priced.retain(|(scaled, _)| *scaled > NEGLIGIBLE.max(10.0 * residual));
     priced.sort_by(|a, b| b.0.total_cmp(&a.0));
     priced.into_iter().map(|(_, active)| active).collect()
 }
