@@ -6,6 +6,7 @@ mod common;
 
 use common::climbers::{M_L, parameters};
 use common::{check_derivatives, completed, request};
+use gaitc_runtime::orbit::{Gait, GaitRequest, GaitStatus, find_gait};
 use gaitc_runtime::return_map::{MapRequest, Sensitivity};
 
 #[test]
@@ -45,5 +46,73 @@ fn all_derivatives_agree_with_differences() {
         &MapRequest { period: 2, ..base },
         &[0, 1, 2, 3, 4, 5],
         1e-8,
+    );
+}
+
+fn gait(psi: f64, guess: [f64; 2]) -> Gait {
+    let p = parameters(psi);
+    let outcome = find_gait(&M_L, &GaitRequest::new(&p, &[0.0]), &guess).unwrap();
+    assert_eq!(outcome.status, GaitStatus::Converged, "{}", outcome.message);
+    assert!(outcome.residual < 1e-13, "residual {}", outcome.residual);
+    outcome.gait.unwrap()
+}
+
+#[test]
+fn gaits_turn_stable_at_the_closed_form_sprawl() {
+    // cos(2 psi) = l_b/(l_b + l_s)
+    let turn = 0.5 * (0.5_f64 / 0.63).acos().to_degrees();
+    approx::assert_abs_diff_eq!(turn, 18.7360, epsilon = 5e-5);
+    let below = gait(turn - 1e-3, [-0.35, -0.2]);
+    let above = gait(turn + 1e-3, [-0.35, -0.2]);
+    assert!(below.spectral_radius > 1.0 && above.spectral_radius < 1.0);
+    let at = gait(turn, [-0.35, -0.2]);
+    approx::assert_abs_diff_eq!(at.spectral_radius, 1.0, epsilon = 1e-12);
+    assert!(at.multipliers[0].im > 0.0);
+}
+
+#[test]
+fn gait_at_25_degrees() {
+    let g = gait(25.0, [-0.35, -0.2]);
+    println!("{} {:?} {:?}", g.coordinates, g.multipliers, g.map.measures);
+    let square = g.multipliers[0].norm_sqr();
+    approx::assert_abs_diff_eq!(
+        square,
+        (50.0_f64).to_radians().cos() * 0.63 / 0.5,
+        epsilon = 1e-12
+    );
+    approx::assert_abs_diff_eq!(g.map.duration, 1.0 / 6.0, epsilon = 1e-15);
+    let p = parameters(25.0);
+    let two = GaitRequest {
+        period: 2,
+        ..GaitRequest::new(&p, &[0.0])
+    };
+    let twice = find_gait(&M_L, &two, &[-0.35, -0.2]).unwrap().gait.unwrap();
+    approx::assert_abs_diff_eq!(twice.spectral_radius, square, epsilon = 1e-11);
+    approx::assert_abs_diff_eq!(twice.coordinates[0], g.coordinates[0], epsilon = 1e-11);
+    approx::assert_abs_diff_eq!(twice.map.measures[0], g.map.measures[0], epsilon = 1e-11);
+}
+
+#[test]
+fn a_far_guess_still_finds_a_gait() {
+    for guess in [[0.0, 0.0], [-1.0, 1.0], [0.5, -2.0], [3.0, 0.0]] {
+        let g = gait(30.0, guess);
+        assert!(g.spectral_radius.is_finite());
+    }
+}
+
+#[test]
+fn work_stays_small() {
+    let p = parameters(25.0);
+    let r = completed(
+        &M_L,
+        &MapRequest {
+            memory: &[0.0],
+            ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates)
+        },
+    );
+    assert!(
+        r.statistics.steps <= 15 && r.statistics.rejected <= 1 && r.statistics.evaluations <= 292,
+        "{:?}",
+        r.statistics
     );
 }

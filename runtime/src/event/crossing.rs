@@ -26,13 +26,18 @@ pub(crate) enum Passage {
 
 /// Whether a closer look is needed; costs nothing and asks for no dense output.
 pub(crate) fn suspicious(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
-    changes_sign(side, end) || turns(side, h, start, end)
+    changes_sign(side, h, start, end) || turns(side, h, start, end)
 }
 
-fn changes_sign(side: Side, end: &Reading) -> bool {
-    let value = side.sign() * end.value;
-    side != Side::Unknown
-        && (value <= 0.0 || (value <= end.rounding && side.sign() * end.rate < 0.0))
+fn changes_sign(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
+    let s = side.sign();
+    let through = s * end.value <= 0.0 || (s * end.value <= end.rounding && s * end.rate < 0.0);
+    if side == Side::Unknown || !through {
+        return false;
+    }
+    // From zero to zero: an excursion that happens to end with the step, or a function that stays zero.
+    let resting = start.value.abs() <= start.rounding && end.value.abs() <= end.rounding;
+    !resting || (s * start.rate * h > start.rounding && s * end.rate * h < -end.rounding)
 }
 
 /// Towards the surface at the start and away from it at the end, with tangents that meet near it or beyond it.
@@ -47,16 +52,16 @@ fn turns(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
 }
 
 /// The first passage in the direction asked for. `value` and `rate` are the surface's function and its time derivative
-/// on the dense output; `largest` is the largest magnitude of the function in the segment so far.
+/// on the dense output of a step of size `h`; `largest` is the largest magnitude of the function in the segment so far.
 pub(crate) fn passage(
     side: Side,
     direction: Direction,
-    (start, end): (&Reading, &Reading),
+    (start, end, h): (&Reading, &Reading, f64),
     largest: f64,
     value: &impl Fn(f64) -> f64,
     rate: &impl Fn(f64) -> f64,
 ) -> Option<Passage> {
-    if changes_sign(side, end) {
+    if changes_sign(side, h, start, end) {
         return if side.leaves(direction) {
             Some(sign_change(side, start, end, value))
         } else {

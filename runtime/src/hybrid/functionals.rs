@@ -28,14 +28,6 @@ pub(crate) struct Varied<const C: usize> {
     pub(crate) gradient: [f64; C],
 }
 
-impl<const C: usize> Varied<C> {
-    /// Zero with zero derivatives.
-    pub(crate) const ZERO: Self = Self {
-        value: 0.0,
-        gradient: [0.0; C],
-    };
-}
-
 /// The chain rule for a scalar function.
 pub(crate) fn along<const N: usize, const P: usize>(
     g: &Gradient<f64, N, P>,

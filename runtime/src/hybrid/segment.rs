@@ -243,7 +243,7 @@ where
             match passage(
                 w.side,
                 w.direction,
-                (&w.start, &w.end),
+                (&w.start, &w.end, h),
                 largest,
                 &|u| on_dense(u).value,
                 &|u| on_dense(u).rate,
