@@ -100,7 +100,7 @@ impl fmt::Display for NoGait {
         match self {
             Self::Stopped(stop) => write!(f, "{}", stop_text(stop)),
             Self::NotConverged(residual) => {
-                write!(f, "Newton's method stops where one map moves the start by {residual:.1e} of its size")
+                write!(f, "Newton's method ends where a map still moves the start by {residual:.1e}")
             }
             Self::Wrong(error) => write!(f, "{error}"),
         }

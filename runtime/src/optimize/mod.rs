@@ -18,7 +18,6 @@
 mod active_set;
 mod characteristic;
 mod confirm;
-mod eigenvalues;
 mod gait;
 mod jacobian_derivative;
 mod jury;

@@ -38,20 +38,20 @@ pub(super) fn projected(problem: &Problem<'_>) -> (Vec<f64>, Vec<usize>) {
 /// # Errors
 /// The failure at the projected parameters.
 pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, NoGait> {
-    let failure = match gait::newton(problem, parameters, &problem.start) {
+    let failure = match gait::near(problem, parameters, &problem.start) {
         Ok(section) => return Ok(Start { parameters: parameters.to_vec(), section }),
         Err(NoGait::Wrong(error)) => return Err(NoGait::Wrong(error)),
         Err(failure) => failure,
     };
     if parameters != problem.parameters
-        && let Ok(section) = gait::newton(problem, &problem.parameters, &problem.start)
+        && let Ok(section) = gait::near(problem, &problem.parameters, &problem.start)
         && let Ok(section) = gait::follow(problem, (&problem.parameters, &section), parameters)
     {
         return Ok(Start { parameters: parameters.to_vec(), section });
     }
     let found = (1..=RESCUES).find_map(|number| {
         let parameters = spread(problem, parameters, number);
-        let section = gait::newton(problem, &parameters, &problem.start).ok()?;
+        let section = gait::near(problem, &parameters, &problem.start).ok()?;
         Some(Start { parameters, section })
     });
     found.ok_or(failure)

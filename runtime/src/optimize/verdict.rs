@@ -1,7 +1,6 @@
 //! From the end of a search to the verdict: polished gait, confirmation, active constraints with shadow prices, kink.
 
 use super::confirm::{self, Claim};
-use super::eigenvalues::eigenvalues;
 use super::gait::{self, NoGait};
 use super::kkt::{infeasibility, kkt};
 use super::message;
@@ -10,6 +9,7 @@ use super::program::{Failure, Point, Program, Row};
 use super::search::{End, Ended};
 use super::solution::{Active, ActiveKind, Kink, Solution, Starts, Status};
 use super::starts::Start;
+use crate::orbit;
 use nalgebra::{Complex, DVector};
 
 /// Scaled multiplier below which a constraint does not limit anything.
@@ -34,8 +34,8 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
     polish(program, &mut ended)?;
     let point = &ended.point;
     let d = point.section.len();
-    let multipliers = eigenvalues(&point.map.jacobian.columns(0, d).into_owned());
-    let spectral_radius = multipliers.first().map_or(0.0, |m| m.norm());
+    let multipliers = orbit::multipliers(&point.map.jacobian.columns(0, d).into_owned());
+    let spectral_radius = orbit::spectral_radius(&multipliers);
     let residuals = kkt(program, point, &ended.lin, &ended.multipliers);
     let mut solution = Solution {
         status: Status::Stalled,
@@ -63,7 +63,7 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
 
 /// Newton on the gait at the final parameters; the point and its derivatives follow.
 fn polish(program: &Program<'_>, ended: &mut Ended) -> Result<(), ProblemError> {
-    let section = match gait::newton(program.problem, &ended.point.parameters, &ended.point.section) {
+    let section = match gait::near(program.problem, &ended.point.parameters, &ended.point.section) {
         Ok(section) => section,
         Err(NoGait::Wrong(error)) => return Err(error),
         // Away from any gait: the verdict then stands on the unpolished point.
