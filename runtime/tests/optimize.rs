@@ -136,6 +136,9 @@ fn section_without_coordinates() {
     assert_eq!(solution.active.len(), 2);
     problem.vary.iter_mut().for_each(|vary| vary.upper = vary.lower);
     assert_eq!(solved(&problem).status, Status::Optimal);
+    (problem.sense, problem.objective) = (Sense::Minimize, gaitc_runtime::optimize::Objective::SpectralRadius);
+    let solution = solved(&problem);
+    assert_eq!((solution.status, solution.objective), (Status::Optimal, 0.0));
 }
 
 #[test]
@@ -253,6 +256,15 @@ fn a_gait_that_the_simulation_does_not_confirm_is_not_optimal() {
     assert!(solution.confirmation.is_none());
 }
 
+/// An expression whose derivatives have the wrong length.
+struct TooShort;
+
+impl gaitc_runtime::optimize::Expression for TooShort {
+    fn evaluate(&self, _: &[f64], _: &[f64]) -> gaitc_runtime::optimize::Value {
+        gaitc_runtime::optimize::Value { value: 0.0, dmeasures: vec![0.0], dparameters: vec![] }
+    }
+}
+
 #[test]
 fn wrong_problems_are_errors() {
     let map = sine();
@@ -283,6 +295,9 @@ fn wrong_problems_are_errors() {
     let mut wrong = right();
     wrong.settings.feasibility = 0.0;
     assert!(matches!(solve(&wrong).unwrap_err(), ProblemError::Setting { setting: "feasibility", .. }));
+    let mut wrong = right();
+    wrong.objective = gaitc_runtime::optimize::Objective::Expression(Box::new(TooShort));
+    assert!(matches!(solve(&wrong).unwrap_err(), ProblemError::Length { expected: 2, got: 0, .. }));
     let mut wrong = right();
     wrong.objective = gaitc_runtime::optimize::Objective::SpectralRadius;
     assert_eq!(solve(&wrong).unwrap_err(), ProblemError::MaximizeSpectralRadius);

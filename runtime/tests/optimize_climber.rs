@@ -51,6 +51,19 @@ fn the_fastest_stable_climber_stands_where_the_closed_form_says() {
 }
 
 #[test]
+fn maps_of_low_accuracy_lose_digits_but_not_the_optimum() {
+    for relative in [1e-10, 1e-8] {
+        let mut problem = climber(25.0, Sense::Maximize, expression(|m, _| m[CLIMB_SPEED]));
+        problem.constraints.push(spectral(0.95));
+        problem.settings.accuracy.relative = relative;
+        problem.settings.accuracy.absolute = relative;
+        let solution = solved(&problem);
+        assert_eq!(solution.status, Status::Optimal);
+        assert_relative_eq!(solution.parameters[PSI], sprawl_at(0.95), epsilon = 30.0 * relative);
+    }
+}
+
+#[test]
 fn the_price_of_stability_is_the_slope_of_resolved_problems() {
     let speed = |bound: f64| {
         let mut problem = climber(20.0, Sense::Maximize, expression(|m, _| m[CLIMB_SPEED]));

@@ -57,7 +57,7 @@ fn grid_best(objective: &Hilly, allowed: impl Fn(f64, f64) -> bool) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig::with_cases(16))]
     #[test]
     fn never_worse_than_a_grid(
         coefficients in prop::array::uniform5(-1.0..1.0f64),

@@ -48,6 +48,7 @@ pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> 
         period: problem.period,
         accuracy: problem.settings.accuracy,
         measures: false,
+        tolerance: f64::max(1e-10, 10.0 * problem.settings.accuracy.relative),
         ..GaitRequest::new(parameters, &problem.memory)
     };
     let outcome = find_gait(problem.map, &request, guess).map_err(|error| NoGait::Wrong(error.into()))?;

@@ -4,7 +4,7 @@
 //! number of the start.
 
 use super::gait::{self, NoGait};
-use super::problem::{Problem, ProblemError};
+use super::problem::Problem;
 
 /// How many other parameter sets are tried when there is no gait at the given ones.
 const RESCUES: usize = 32;
@@ -57,17 +57,14 @@ pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, 
     found.ok_or(failure)
 }
 
-/// Start number `number` (from 1), followed from the first; `None` when no gait can be followed there.
+/// Start number `number` (from 1), followed from the first.
 ///
 /// # Errors
-/// Only for a problem that turns out to be wrong as stated.
-pub(super) fn further(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Option<Start>, ProblemError> {
+/// When no gait can be followed there.
+pub(super) fn further(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Start, NoGait> {
     let parameters = spread(problem, &first.parameters, number);
-    match gait::follow(problem, (&first.parameters, &first.section), &parameters) {
-        Ok(section) => Ok(Some(Start { parameters, section })),
-        Err(NoGait::Wrong(error)) => Err(error),
-        Err(_) => Ok(None),
-    }
+    let section = gait::follow(problem, (&first.parameters, &first.section), &parameters)?;
+    Ok(Start { parameters, section })
 }
 
 /// Parameters number `number` (from 1) of the sequence in the ranges.

@@ -123,6 +123,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     if let Some(kink) = &solution.kink {
         solution.notes.push(message::kink(kink));
     }
+    solution.notes.extend(ended.point.map.warnings.iter().map(|warning| message::warning(problem, warning)));
     solution.message = message::message(problem, solution, &detail);
 }
 
