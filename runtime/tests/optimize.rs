@@ -302,3 +302,28 @@ fn wrong_problems_are_errors() {
     wrong.objective = gaitc_runtime::optimize::Objective::SpectralRadius;
     assert_eq!(solve(&wrong).unwrap_err(), ProblemError::MaximizeSpectralRadius);
 }
+
+#[test]
+fn the_search_begins_elsewhere_when_there_is_no_gait_at_the_start() {
+    let map = Closed::new(1, 1, 1, |z, p| {
+        (p[0].v > 0.5).then(|| (about(z, &[p[0]], &[vec![Dual::constant(0.4)]]), vec![z[0]]))
+    });
+    let objective = expression(|_, p| (p[0] - 0.8) * (p[0] - 0.8));
+    let solution = solved(&problem(&map, Sense::Minimize, objective, &[0.1], &[(0.0, 1.0)]));
+    assert_eq!(solution.status, Status::Optimal);
+    assert_relative_eq!(solution.parameters[0], 0.8, epsilon = 1e-6);
+    assert!(solution.notes.iter().any(|note| note.contains("began elsewhere")), "{:?}", solution.notes);
+}
+
+#[test]
+fn the_edge_of_existence_of_a_gait_is_an_optimum() {
+    // Gaits at +-sqrt(p0) meet in a fold at p0 = 0, where dP/dz - 1 is singular.
+    let map = Closed::new(1, 1, 1, |z, p| Some((vec![z[0] + (p[0] - z[0] * z[0]) * 0.5], vec![z[0]])));
+    let mut problem = problem(&map, Sense::Minimize, expression(|_, p| p[0]), &[0.49], &[(-1.0, 1.0)]);
+    problem.start = vec![0.6];
+    let solution = solved(&problem);
+    println!("{solution:?}");
+    assert_eq!(solution.status, Status::Optimal);
+    assert_relative_eq!(solution.parameters[0], 0.0, epsilon = 1e-8);
+    assert_relative_eq!(solution.spectral_radius, 1.0, epsilon = 1e-4);
+}

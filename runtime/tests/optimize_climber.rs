@@ -64,6 +64,16 @@ fn maps_of_low_accuracy_lose_digits_but_not_the_optimum() {
 }
 
 #[test]
+fn a_gait_of_two_steps_has_the_squared_multipliers() {
+    let mut problem = climber(20.0, Sense::Maximize, expression(|m, _| m[CLIMB_SPEED]));
+    problem.period = 2;
+    problem.constraints.push(spectral(0.95 * 0.95));
+    let solution = solved(&problem);
+    assert_eq!(solution.status, Status::Optimal);
+    assert_relative_eq!(solution.parameters[PSI], sprawl_at(0.95), epsilon = 1e-9);
+}
+
+#[test]
 fn the_price_of_stability_is_the_slope_of_resolved_problems() {
     let speed = |bound: f64| {
         let mut problem = climber(20.0, Sense::Maximize, expression(|m, _| m[CLIMB_SPEED]));
