@@ -24,7 +24,7 @@ use rates::{Bare, Rates, Whole};
 use run::Run;
 
 /// The largest number of columns in one pass.
-const WIDEST: usize = 12;
+const WIDEST: usize = 8;
 
 /// The return map of a compiled model.
 #[derive(Clone, Copy, Debug, Default)]
@@ -128,7 +128,7 @@ fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
             }
         };
     }
-    widths!(0, 1, 2, 3, 4, 6, 8, 12)
+    widths!(0, 1, 2, 4, 8)
 }
 
 fn pass<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
