@@ -33,6 +33,18 @@ fn every_spec_of_the_project_is_accepted_without_a_word() {
     }
 }
 
+/// The TOML blocks of the language reference are one spec.
+#[test]
+fn the_language_reference_compiles() {
+    let page = std::fs::read_to_string(folder("../docs/language.md")).unwrap();
+    let blocks = page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let text: String = blocks.collect();
+    let parsed = parse_text(Path::new("rimless_wheel.toml"), &text);
+    assert_eq!(render(&parsed.diagnostics, &parsed.sources, false), "");
+    let model = parsed.model.unwrap();
+    assert_eq!((model.measures.len(), model.problems.len()), (4, 1));
+}
+
 /// What is said of each file of `tests/wrong` stands beside it. `GAITC_BLESS=1` writes what is said now, and fails.
 #[test]
 fn wrong_specs_are_explained() {

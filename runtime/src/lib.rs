@@ -1,7 +1,13 @@
 //! Runtime of gaitc: integrates compiled hybrid models, linearises their return maps exactly, finds and optimises gaits.
 
+pub(crate) mod event;
+pub mod hybrid;
 pub mod model;
+pub mod ode;
+pub mod optimize;
+pub mod orbit;
 pub mod probe;
 pub mod registry;
 pub mod return_map;
 pub mod scalar;
+pub mod sensitivity;

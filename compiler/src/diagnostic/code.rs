@@ -33,6 +33,7 @@ codes! {
     BadValue "E0006" "a value is not one of those that the key takes";
     Unsupported "E0007" "not supported yet";
     NameMismatch "E0008" "the model's name and the file's name differ";
+    TooLarge "E0009" "a table has too many entries";
     Syntax "E0101" "an expression cannot be read";
     Number "E0102" "a number cannot be read";
     TooComplex "E0103" "an expression is too long or nested too deeply";

@@ -147,7 +147,7 @@ mod tests {
         let diagnostic = Diagnostic::error(Code::UndefinedName, "undefined name `x`")
             .at(span, "not defined")
             .help("did you mean `y`?");
-        let text = render(&[diagnostic.clone()], &sources, false);
+        let text = render(std::slice::from_ref(&diagnostic), &sources, false);
         assert!(text.contains("error[E0201]: undefined name `x`"), "{text}");
         assert!(text.contains("a.toml:2:8"), "{text}");
         assert!(text.contains("help: did you mean `y`?"), "{text}");

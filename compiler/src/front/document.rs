@@ -55,7 +55,7 @@ impl Value {
         match self.kind {
             ValueKind::Text(_) => "a string",
             ValueKind::Integer(..) => "a whole number",
-            ValueKind::Float(_) => "a number",
+            ValueKind::Float(_) => "a fraction",
             ValueKind::Boolean(_) => "true or false",
             ValueKind::Datetime => "a date",
             ValueKind::Array(_) => "an array",

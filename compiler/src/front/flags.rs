@@ -9,6 +9,7 @@ use super::parser::parse_expression;
 use super::quantity::Quantities;
 use super::spec::Equation;
 pub use super::suggest;
+use super::syntax::Expression;
 use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic, render};
 use crate::dimension::Dimension;
@@ -74,10 +75,11 @@ impl Flag {
     /// Lowers the text as an expression over a model's measures and parameters.
     fn lower<T>(
         mut self,
+        expression: Result<Expression, Box<Diagnostic>>,
         model: &mut Model,
         lower: impl FnOnce(&mut Lowering<'_>, &Equation) -> Option<T>,
     ) -> Result<T, FlagError> {
-        let expression = match parse_expression(&self.text) {
+        let expression = match expression {
             Ok(expression) => expression,
             Err(diagnostic) => {
                 self.diagnostics.push(*diagnostic);
@@ -148,7 +150,9 @@ pub fn parse_assignment(text: &str) -> Result<(&str, &str), FlagError> {
 /// # Errors
 /// When it is no constraint, or uses something else.
 pub fn parse_constraint(model: &mut Model, text: &str) -> Result<Constraint, FlagError> {
-    Flag::new(text).lower(model, |lowering, equation| lowering.constraint(equation))
+    let flag = Flag::new(text);
+    let expression = super::parser::parse_constraint(&flag.text);
+    flag.lower(expression, model, |lowering, equation| lowering.constraint(equation))
 }
 
 /// Reads an objective such as `climb_speed` over the measures and parameters of a model; its node, which is added to
@@ -157,5 +161,7 @@ pub fn parse_constraint(model: &mut Model, text: &str) -> Result<Constraint, Fla
 /// # Errors
 /// When it is no expression, or uses something else.
 pub fn parse_objective(model: &mut Model, text: &str) -> Result<(NodeId, Dimension), FlagError> {
-    Flag::new(text).lower(model, |lowering, equation| lowering.objective(equation))
+    let flag = Flag::new(text);
+    let expression = parse_expression(&flag.text);
+    flag.lower(expression, model, |lowering, equation| lowering.objective(equation))
 }

@@ -1,7 +1,7 @@
 //! The front end: the text of a spec to the intermediate representation, or to diagnostics.
 //!
-//! The stages, each in its folder or file: TOML with places ([`document`]), tables and keys checked and expressions
-//! parsed ([`read`], giving [`spec`]), names resolved, dimensions checked and expressions lowered ([`lower`]). All
+//! The stages, each in its folder or file: TOML with places (`document`), tables and keys checked and expressions
+//! parsed (`read`, giving `spec`), names resolved, dimensions checked and expressions lowered (`lower`). All
 //! problems of a file are reported in one go; what depends on something broken is silent.
 
 mod constant;
@@ -74,12 +74,12 @@ pub fn parse_text(path: &Path, text: &str) -> Parsed {
     let spec = read::read(&document, start, complete, &mut diagnostics);
     let mut model = None;
     // In a file with broken TOML definitions may be lost: what would be said of names is unreliable.
-    if complete {
+    if complete && !diagnostics.iter().any(|diagnostic| diagnostic.code == Code::TooLarge) {
         check_file_name(&spec, path, &mut diagnostics);
         model = Some(lower::lower(&spec, &sources, &mut diagnostics));
     }
-    let diagnostics = sorted(diagnostics);
     let model = model.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
+    let diagnostics = sorted(diagnostics);
     Parsed { sources, model, diagnostics }
 }
 
@@ -101,10 +101,17 @@ fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnos
     }
 }
 
+/// Most diagnostics of one file; beyond that errors only, and no more than this.
+const DIAGNOSTIC_LIMIT: usize = 1000;
+
 /// In the order of the text, each problem of each place once.
 fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics.sort_by_key(|diagnostic| diagnostic.primary().map(|span| (span.start, span.end)));
     let mut seen = std::collections::HashSet::new();
-    diagnostics.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.primary())));
+    diagnostics.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.primary(), diagnostic.message.clone())));
+    if diagnostics.len() > DIAGNOSTIC_LIMIT && diagnostics.iter().any(Diagnostic::is_error) {
+        diagnostics.retain(Diagnostic::is_error);
+    }
+    diagnostics.truncate(DIAGNOSTIC_LIMIT);
     diagnostics
 }

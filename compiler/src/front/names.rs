@@ -76,7 +76,9 @@ pub fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let limit = if name.chars().count() <= 4 { 1 } else { 2 };
     let lower = name.to_lowercase();
     let mut best: Option<(usize, &str)> = None;
-    for candidate in candidates.into_iter().filter(|candidate| candidate.len() <= LONGEST) {
+    let near_length =
+        |candidate: &&str| candidate.len() <= LONGEST && candidate.len().abs_diff(name.len()) <= 4 * limit;
+    for candidate in candidates.into_iter().filter(near_length) {
         let distance = strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
         if distance <= limit && distance < candidate.chars().count() && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));

@@ -33,6 +33,39 @@ pub(crate) fn parse_value(text: &Text) -> Result<(Expression, usize), Box<Diagno
     Ok((Expression { root, names: parser.names }, rest))
 }
 
+/// Reads a constraint: an expression whose right side, where it is constant, may be a quantity, as in
+/// `peak_force <= 150 N`.
+pub(crate) fn parse_constraint(text: &Text) -> Result<Expression, Box<Diagnostic>> {
+    let mut parser = Parser::new(text)?;
+    let mut root = parser.expression(0)?;
+    let token = parser.peek();
+    let starts_unit = matches!(token.kind, TokenKind::Name | TokenKind::Bad(_));
+    if let ExprKind::Compare(_, _, right) = &mut root.kind
+        && starts_unit
+        && parser.names.iter().all(|name| name.span.start < right.span.start || name.name == "pi")
+    {
+        let offset = token.range.start;
+        let unit = parser.slice(offset..text.value.len()).trim_end();
+        let unit_span = text.at(offset..offset + unit.len());
+        let unit = parse_unit(unit).map_err(|error| unit_diagnostic(error, text, offset))?;
+        let span = right.span.to(unit_span);
+        match &mut right.kind {
+            ExprKind::Number(_, given @ None) => *given = Some(unit),
+            _ => {
+                let number = std::mem::replace(&mut right.kind, ExprKind::Number(0.0, None));
+                let number = Box::new(Expr { kind: number, span: right.span });
+                let one = Box::new(Expr { kind: ExprKind::Number(1.0, Some(unit)), span: unit_span });
+                right.kind = ExprKind::Arithmetic(Arithmetic::Mul, number, one);
+            }
+        }
+        right.span = span;
+        root.span = root.span.to(span);
+        return Ok(Expression { root, names: parser.names });
+    }
+    parser.end()?;
+    Ok(Expression { root, names: parser.names })
+}
+
 /// A unit's complaint as a diagnostic; `offset` is where the unit starts in `text`.
 pub(crate) fn unit_diagnostic(error: UnitError, text: &Text, offset: usize) -> Box<Diagnostic> {
     let span = text.at(error.range.start + offset..error.range.end + offset);
@@ -190,8 +223,9 @@ impl<'a> Parser<'a> {
             "and" | "or" => return Err(self.unexpected(token)),
             _ => {}
         }
-        self.names.push(NameUse { name: name.clone(), span, in_functional: self.functionals > 0 });
-        if self.peek().kind != TokenKind::Open {
+        let called = self.peek().kind == TokenKind::Open;
+        self.names.push(NameUse { name: name.clone(), span, called, in_functional: self.functionals > 0 });
+        if !called {
             return Ok(Expr { kind: ExprKind::Name(name), span });
         }
         let open = self.next();

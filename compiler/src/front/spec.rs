@@ -92,7 +92,8 @@ pub(crate) struct Transition {
 pub(crate) struct Section {
     pub(crate) span: Span,
     pub(crate) after: Option<Text>,
-    pub(crate) coordinates: Vec<Text>,
+    /// `None` where they are missing or broken.
+    pub(crate) coordinates: Option<Vec<Text>>,
     pub(crate) embed: Vec<Named<Equation>>,
     pub(crate) start: Vec<Named<Text>>,
     pub(crate) symmetry: Option<Vec<Named<Equation>>>,

@@ -17,6 +17,8 @@ pub(crate) struct Expression {
 pub(crate) struct NameUse {
     pub(crate) name: String,
     pub(crate) span: Span,
+    /// Whether it is called as a function.
+    pub(crate) called: bool,
     /// Whether it stands inside the argument of a functional such as `mean`.
     pub(crate) in_functional: bool,
 }

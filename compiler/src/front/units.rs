@@ -71,6 +71,14 @@ const TABLE: &[Row] = &[
     ("%",    [0; 7],                  1.0, 100.0, false),
 ];
 
+/// Names of units that are not symbols, in the singular.
+#[rustfmt::skip]
+const SPELT_OUT: &[(&str, &str)] = &[
+    ("meter", "m"), ("metre", "m"), ("gram", "g"), ("kilogram", "kg"), ("second", "s"), ("sec", "s"), ("minute", "min"),
+    ("hour", "h"), ("hr", "h"), ("newton", "N"), ("joule", "J"), ("watt", "W"), ("volt", "V"), ("ampere", "A"),
+    ("amp", "A"), ("hertz", "Hz"), ("radian", "rad"), ("degree", "deg"), ("pascal", "Pa"), ("kelvin", "K"),
+];
+
 /// SI prefixes: factor and divisor.
 #[rustfmt::skip]
 const PREFIXES: &[(&str, f64, f64)] = &[
@@ -306,6 +314,10 @@ impl Parser<'_> {
         let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
         let help = if name == "pi" {
             Some("multiply in the value, as in `2*pi rad`".to_owned())
+        } else if let Some((_, short)) =
+            SPELT_OUT.iter().find(|(long, _)| name.trim_end_matches('s').eq_ignore_ascii_case(long))
+        {
+            Some(format!("did you mean `{short}`?"))
         } else if stem != name && symbol(stem).is_some() {
             Some(format!("write a power as `{stem}^{}`", name.get(stem.len()..).unwrap_or("")))
         } else if symbol(&name.to_lowercase()).is_some() {

@@ -21,6 +21,13 @@ struct Branches {
     otherwise: NodeId,
 }
 
+/// Which of two numbers.
+#[derive(Clone, Copy)]
+pub(super) enum Extreme {
+    Smaller,
+    Larger,
+}
+
 impl Lowering<'_> {
     /// `if(condition, then, otherwise)`.
     pub(super) fn if_(
@@ -107,8 +114,8 @@ impl Lowering<'_> {
             ExprKind::Logic(logic, a, b) => {
                 let (a, b) = (self.margin(a, place), self.margin(b, place));
                 a.zip(b).map(|(a, b)| {
-                    let (low, high) = if *logic == Logic::And { (a, b) } else { (b, a) };
-                    self.smaller(low, high, Some(Dimension::NONE), condition.span, context)
+                    let extreme = if *logic == Logic::And { Extreme::Smaller } else { Extreme::Larger };
+                    self.extreme(extreme, a, b, Some(Dimension::NONE), condition.span, context)
                 })
             }
             _ => {
@@ -120,16 +127,20 @@ impl Lowering<'_> {
         value
     }
 
-    /// `min(a, b)`; with the arguments exchanged it is `max`.
-    pub(super) fn smaller(
+    /// `min(a, b)` or `max(a, b)`.
+    pub(super) fn extreme(
         &mut self,
+        extreme: Extreme,
         a: Value,
         b: Value,
         dimension: Option<Dimension>,
         span: Span,
         context: Context<'_>,
     ) -> Value {
-        let difference = self.binary(Binary::Sub, b.node, a.node);
+        let difference = match extreme {
+            Extreme::Smaller => self.binary(Binary::Sub, b.node, a.node),
+            Extreme::Larger => self.binary(Binary::Sub, a.node, b.node),
+        };
         let branches = Branches { then: a.node, otherwise: b.node };
         let node = self.by_sign(difference, branches, span, context);
         Value { node, dimension, uses: a.uses.and(b.uses) }

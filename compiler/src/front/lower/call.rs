@@ -1,13 +1,15 @@
 //! Function calls: the functions of the language, functionals, and the spec's own functions, inlined where they are
 //! called.
 
+use super::branch::Extreme;
+use super::definitions::undefined_function;
 use super::expr::Operand;
 use super::lowering::{Context, Frame, Lowering};
 use super::scope::{Definition, Entity};
 use super::value::{Place, Uses, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::{Dimension, Exponent};
-use crate::front::names::{FUNCTIONALS, FUNCTIONS, suggest};
+use crate::front::names::{FUNCTIONALS, FUNCTIONS};
 use crate::front::syntax::{Call, Expr, ExprKind};
 use crate::ir::{Binary, Functional, FunctionalKind, Node, NodeId, Symbol, Unary};
 use crate::source::Span;
@@ -29,25 +31,11 @@ impl Lowering<'_> {
                 self.report(error.help("write `*` before the parenthesis to multiply"), context);
                 None
             }
-            None => self.undefined_function(call, context),
+            None => {
+                self.report(undefined_function(&call.name, call.name_span, self.scope), context);
+                None
+            }
         }
-    }
-
-    fn undefined_function(&mut self, call: &Call, context: Context<'_>) -> Option<Value> {
-        let message = format!("undefined function `{}`", call.name);
-        let error = Diagnostic::error(Code::UndefinedFunction, message).at(call.name_span, "");
-        let words = FUNCTIONS.iter().map(|(name, _)| *name).chain(FUNCTIONALS.iter().copied());
-        let near = suggest(&call.name, words);
-        let near = near.or_else(|| self.scope.suggest(&call.name, |entity| matches!(entity, Entity::Function(_))));
-        let help = match (call.name.as_str(), near) {
-            ("ln", _) => "did you mean `log`, the natural logarithm?".to_owned(),
-            ("pow", _) => "write a power as `x^2`".to_owned(),
-            ("der" | "diff", _) => "did you mean `d(expr, x)`?".to_owned(),
-            (_, Some(near)) => format!("did you mean `{near}`?"),
-            (name, None) => format!("define `{name}` in [functions]"),
-        };
-        self.report(error.help(help), context);
-        None
     }
 
     /// Checks the number of arguments.
@@ -77,8 +65,8 @@ impl Lowering<'_> {
                 let (a, b) = (Operand { value: left?, span: a.span }, Operand { value: right?, span: b.span });
                 let dimension = self.same(a, b, &format!("`{name}`"), context)?;
                 match name {
-                    "min" => Some(self.smaller(a.value, b.value, dimension, span, context)),
-                    "max" => Some(self.smaller(b.value, a.value, dimension, span, context)),
+                    "min" => Some(self.extreme(Extreme::Smaller, a.value, b.value, dimension, span, context)),
+                    "max" => Some(self.extreme(Extreme::Larger, a.value, b.value, dimension, span, context)),
                     _ => {
                         let node = self.binary(Binary::Atan2, a.value.node, b.value.node);
                         let uses = a.value.uses.and(b.value.uses);

@@ -5,7 +5,7 @@ use super::order::{Order, order};
 use super::scope::{Entity, Scope};
 use super::value::{Place, Style, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::front::names::reserved;
+use crate::front::names::{FUNCTIONALS, FUNCTIONS, reserved, suggest};
 use crate::front::spec::{Equation, Function, Named, Spec};
 use crate::front::syntax::NameUse;
 use crate::source::Span;
@@ -74,7 +74,8 @@ impl<'a> Definitions<'a> {
         for i in 0..self.functions.len() {
             for name in self.names(self.lets.len() + i).filter(|name| reserved(&name.name).is_none()) {
                 if scope.get(&name.name).is_none() {
-                    diagnostics.push(undefined(&name.name, name.span, scope));
+                    let message = if name.called { undefined_function } else { undefined };
+                    diagnostics.push(message(&name.name, name.span, scope));
                 }
             }
         }
@@ -121,7 +122,7 @@ impl Lowering<'_> {
         self.lets = done;
         for (i, item) in self.definitions.lets.iter().enumerate() {
             if !self.lets.contains_key(&(i, Style::Frozen)) && !self.lets.contains_key(&(i, Style::Immediate)) {
-                let name = NameUse { name: item.name.clone(), span: item.span, in_functional: true };
+                let name = NameUse { name: item.name.clone(), span: item.span, called: false, in_functional: true };
                 self.lower_lets(&[name], Place::Dynamics);
             }
         }
@@ -140,7 +141,7 @@ pub(super) fn cycle_diagnostic(members: &[(&str, Option<Span>)]) -> Option<Diagn
     path.push(format!("`{first}`"));
     let message = match members.len() {
         1 => format!("`{first}` needs itself"),
-        _ => format!("definitions need each other: {}", path.join(" needs ")),
+        _ => format!("definitions need each other: {}", path.join(" -> ")),
     };
     let mut diagnostic = Diagnostic::error(Code::Cycle, message).at((*span)?, "");
     for (_, span) in members.iter().skip(1).take(TOLD) {
@@ -149,11 +150,25 @@ pub(super) fn cycle_diagnostic(members: &[(&str, Option<Span>)]) -> Option<Diagn
     Some(diagnostic.help("definitions are equations without time: a value that depends on its own past is a state"))
 }
 
+/// The message for a function that is not defined.
+pub(super) fn undefined_function(name: &str, span: Span, scope: &Scope) -> Diagnostic {
+    let diagnostic = Diagnostic::error(Code::UndefinedFunction, format!("undefined function `{name}`")).at(span, "");
+    let words = FUNCTIONS.iter().map(|(name, _)| *name).chain(FUNCTIONALS.iter().copied());
+    let near = suggest(name, words).or_else(|| scope.suggest(name, |entity| matches!(entity, Entity::Function(_))));
+    diagnostic.help(match (name, near) {
+        ("ln", _) => "did you mean `log`, the natural logarithm?".to_owned(),
+        ("pow", _) => "write a power as `x^2`".to_owned(),
+        ("der" | "diff", _) => "did you mean `d(expr, x)`?".to_owned(),
+        (_, Some(near)) => format!("did you mean `{near}`?"),
+        (name, None) => format!("define `{name}` in [functions]"),
+    })
+}
+
 /// The message for a name that is not defined.
 pub(super) fn undefined(name: &str, span: Span, scope: &Scope) -> Diagnostic {
     let diagnostic = Diagnostic::error(Code::UndefinedName, format!("undefined name `{name}`")).at(span, "");
     let near = scope.suggest(name, |entity| !matches!(entity, Entity::Function(_)));
-    let words = || crate::front::names::suggest(name, ["pi", "tau", "duration", "spectral_radius"]);
+    let words = || suggest(name, ["pi", "tau", "duration", "spectral_radius"]);
     match near.or_else(words) {
         Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
         None => diagnostic.help(format!("define `{name}` in [parameters], [state], [memory] or [let]")),

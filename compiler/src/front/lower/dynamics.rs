@@ -53,7 +53,8 @@ impl Lowering<'_> {
         let help = match suggest(name, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None if names.is_empty() => format!("define a {kind} first"),
-            None => format!("there are {}", list(names)),
+            None if names.len() == 1 => format!("the only {kind} is {}", list(names)),
+            None => format!("the {kind}s are {}", list(names)),
         };
         let message = format!("there is no {kind} `{}`", shortened(name));
         self.diagnostics.push(Diagnostic::error(Code::UnknownReference, message).at(span, "").help(help));

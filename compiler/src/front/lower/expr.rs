@@ -343,7 +343,8 @@ impl Lowering<'_> {
 /// The message for a name in a quantity.
 fn not_constant(name: &str, span: Span) -> Diagnostic {
     let message = format!("a quantity cannot use `{}`", crate::front::parser::shortened(name));
-    let help = "a quantity is made of numbers, `pi` and functions, then a unit to the end, as in `2*pi*3 rad/s`";
+    let help =
+        "a quantity is made of numbers, `pi` and functions, then a space and a unit, as in `2*pi*3 rad/s` or `3 1/s`";
     Diagnostic::error(Code::NotConstant, message).at(span, "not a constant").help(help)
 }
 

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 /// Deepest nesting of expressions through the functions that they call.
 const DEPTH_LIMIT: usize = 256;
 /// Most nodes of a model.
-const NODE_LIMIT: usize = 1_000_000;
+const NODE_LIMIT: usize = 200_000;
 
 /// Lowers expressions into a model's graph.
 pub(crate) struct Lowering<'a> {
@@ -31,6 +31,8 @@ pub(crate) struct Lowering<'a> {
     pub(super) measures: HashMap<usize, Option<Value>>,
     pub(super) switches: HashMap<NodeId, usize>,
     pub(super) functionals: HashMap<(FunctionalKind, NodeId), usize>,
+    /// Whether all coordinates of the section are known.
+    pub(super) whole_section: bool,
     depth: usize,
     full: bool,
 }
@@ -93,6 +95,7 @@ impl<'a> Lowering<'a> {
             measures: HashMap::new(),
             switches: HashMap::new(),
             functionals: HashMap::new(),
+            whole_section: true,
             depth: 0,
             full: false,
         }

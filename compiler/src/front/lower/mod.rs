@@ -34,7 +34,6 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     let scope = declare::declare(spec, &mut model, sources, diagnostics);
     let definitions = Definitions::new(spec, &scope, diagnostics);
     definitions.check_function_names(&scope, diagnostics);
-    unused::check(spec, diagnostics);
     let mut lowering = Lowering::new(&mut model, &scope, &definitions, sources, diagnostics);
     lowering.modes(spec);
     lowering.transitions(spec);
@@ -45,6 +44,10 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     let lets = lowering.into_lets();
     let mut scratch = model.clone();
     Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics).lower_remaining_lets(lets);
+    // Where a name is misspelt, what it was meant to be only looks unused.
+    if !diagnostics.iter().any(Diagnostic::is_error) {
+        unused::check(spec, diagnostics);
+    }
     model
 }
 

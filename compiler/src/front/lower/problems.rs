@@ -64,8 +64,14 @@ impl Lowering<'_> {
         let names: Vec<String> = model.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let parameter = self.reference("parameter", &item.name, item.span, &names)?;
-        let dimension = self.scope.get(&item.name).and_then(|definition| definition.dimension)?;
+        let dimension = self.scope.get(&item.name).and_then(|definition| definition.dimension);
         let mut quantities = Quantities { sources: self.sources, diagnostics: self.diagnostics };
+        let Some(dimension) = dimension else {
+            // The parameter is broken; the bounds are read for their messages.
+            quantities.any(&item.value.lower);
+            quantities.any(&item.value.upper);
+            return None;
+        };
         let (lower, upper) = quantities.interval(&item.value, dimension, &format!("`{}`", item.name))?;
         Some(ir::Vary { parameter, lower, upper })
     }

@@ -18,7 +18,10 @@ impl Lowering<'_> {
             section.after.as_ref().and_then(|name| self.reference("transition", &name.value, name.span, &names));
         let target = after.and_then(|after| self.model.transitions.get(after)).map(|transition| transition.to);
         let has_state = target.and_then(|to| self.model.modes.get(to)).map(|mode| mode.has_state.clone());
-        let coordinates = self.coordinates(&section.coordinates, has_state.as_deref());
+        let given = section.coordinates.as_deref();
+        let coordinates = self.coordinates(given.unwrap_or(&[]), has_state.as_deref());
+        // Where coordinates are broken, it is not known what else the section has to say.
+        self.whole_section = given.is_some_and(|given| given.len() == coordinates.len());
         let embed = self.embed(section, &coordinates, has_state.as_deref());
         let start = self.start(section, &coordinates);
         let symmetry = section.symmetry.as_ref().map(|equations| self.symmetry(equations));
@@ -75,7 +78,7 @@ impl Lowering<'_> {
             given[state] = true;
             embed[state] = node.unwrap_or(zero);
         }
-        let has_state = has_state.unwrap_or(&[]);
+        let has_state = has_state.filter(|_| self.whole_section).unwrap_or(&[]);
         for state in (0..has_state.len()).filter(|&i| has_state[i] && !given[i] && !coordinates.contains(&i)) {
             let name = self.state_name(state);
             let message = format!("the section does not say what the state `{name}` is on it");
@@ -123,7 +126,8 @@ impl Lowering<'_> {
             let Some(state) = state else { continue };
             match coordinates.iter().position(|&coordinate| coordinate == state) {
                 Some(i) => start[i] = Some(value.unwrap_or(0.0)),
-                None => self.no_coordinate(&item.name, item.span),
+                None if self.whole_section => self.no_coordinate(&item.name, item.span),
+                None => {}
             }
         }
         for (&state, _) in coordinates.iter().zip(&start).filter(|(_, start)| start.is_none()) {

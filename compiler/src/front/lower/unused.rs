@@ -9,10 +9,6 @@ pub(super) fn check(spec: &Spec, diagnostics: &mut Vec<Diagnostic>) {
     let expressions = spec.equations().filter_map(|equation| equation.expression.as_ref());
     let mut used: HashSet<&str> = expressions.flat_map(|e| &e.names).map(|name| name.name.as_str()).collect();
     used.extend(spec.problems.iter().flat_map(|problem| &problem.value.vary).map(|item| item.name.as_str()));
-    // In an expression that cannot be read any name may stand.
-    if spec.equations().any(|equation| equation.expression.is_none()) {
-        return;
-    }
     warn(&spec.parameters, "parameter", &used, diagnostics);
     warn(&spec.memory, "memory", &used, diagnostics);
     warn(&spec.lets, "name of [let]", &used, diagnostics);

@@ -16,7 +16,7 @@ pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Fun
             continue;
         };
         let arguments = fields.require("args", "args = [\"x\"]", sink);
-        let arguments = arguments.map(|entry| strings(entry, "args = [\"x\"]", sink)).unwrap_or_default();
+        let arguments = arguments.and_then(|entry| strings(entry, "args = [\"x\"]", sink)).unwrap_or_default();
         let body = fields.equation("expr", "expr = \"2*x\"", sink);
         fields.doc("doc", sink);
         functions.push(Named { name: entry.key.clone(), span: entry.key_span, value: Function { arguments, body } });
@@ -100,7 +100,7 @@ pub(super) fn section(entry: &Entry, sink: &mut Sink<'_>) -> Option<Section> {
     Some(Section {
         span: entry.key_span,
         after: fields.string("after", "after = \"step\"", sink),
-        coordinates: coordinates.map(|entry| strings(entry, example, sink)).unwrap_or_default(),
+        coordinates: coordinates.and_then(|entry| strings(entry, example, sink)),
         embed: equations(fields.table("embed", sink), sink),
         start,
         symmetry: fields.get("symmetry").map(|_| equations(fields.table("symmetry", sink), sink)),

@@ -3,8 +3,9 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, Table, Value, ValueKind};
 use crate::front::names::suggest;
-use crate::front::parser::{parse_expression, shortened};
+use crate::front::parser::{parse_constraint, parse_expression, shortened};
 use crate::front::spec::{Equation, Interval, Named};
+use crate::front::syntax::Expression;
 use crate::front::text::Text;
 use crate::source::Span;
 
@@ -21,6 +22,9 @@ impl Sink<'_> {
 
     /// Reports a value of the wrong type.
     pub(super) fn wrong_type(&mut self, value: &Value, key: &str, expected: &str, example: &str) {
+        if !self.complete {
+            return; // what broken TOML was meant to be is not known
+        }
         let message = format!("`{}` must be {expected}, not {}", shortened(key), value.kind_text());
         self.push(Diagnostic::error(Code::WrongType, message).at(value.span, "").help(format!("write `{example}`")));
     }
@@ -36,6 +40,8 @@ impl Sink<'_> {
 /// A table whose keys are fixed.
 pub(super) struct Fields<'t> {
     table: &'t Table,
+    /// Misspelt keys and what they were probably meant to be: read as that, so that nothing else is said of them.
+    misspelt: Vec<(&'t Entry, String)>,
     /// The table's header, to point at when something is missing.
     pub(super) place: Span,
     /// The table in words, e.g. "parameter `psi`".
@@ -45,19 +51,24 @@ pub(super) struct Fields<'t> {
 impl<'t> Fields<'t> {
     /// Takes a table and reports the keys that it must not have.
     pub(super) fn new(table: &'t Table, place: Span, what: String, keys: &[&str], sink: &mut Sink<'_>) -> Self {
+        let mut misspelt = Vec::new();
         for entry in table.entries.iter().filter(|entry| !keys.contains(&entry.key.as_str())) {
             let message = format!("unknown key `{}` of {what}", shortened(&entry.key));
             let help = match suggest(&entry.key, keys.iter().copied()) {
-                Some(near) => format!("did you mean `{near}`?"),
+                Some(near) => {
+                    misspelt.push((entry, near.to_owned()));
+                    format!("did you mean `{near}`?")
+                }
                 None => format!("the keys are {}", list(keys)),
             };
             sink.push(Diagnostic::error(Code::UnknownKey, message).at(entry.key_span, "").help(help));
         }
-        Self { table, place, what }
+        Self { table, misspelt, place, what }
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&'t Entry> {
-        self.table.get(key)
+        let misspelt = || self.misspelt.iter().find(|(_, meant)| meant == key).map(|(entry, _)| *entry);
+        self.table.get(key).or_else(misspelt)
     }
 
     /// A key that must be there.
@@ -129,12 +140,16 @@ pub(super) fn scalar(value: &Value, key: &str, example: &str, sink: &mut Sink<'_
 /// An expression.
 pub(super) fn equation(entry: &Entry, sink: &mut Sink<'_>) -> Option<Equation> {
     let text = scalar(&entry.value, &entry.key, &format!("{} = \"...\"", shortened(&entry.key)), sink)?;
-    Some(parsed(text, sink))
+    Some(kept(parse_expression(&text), text, sink))
 }
 
-/// The expression that a text holds.
-pub(super) fn parsed(text: Text, sink: &mut Sink<'_>) -> Equation {
-    let expression = match parse_expression(&text) {
+/// A constraint.
+pub(super) fn constraint(text: Text, sink: &mut Sink<'_>) -> Equation {
+    kept(parse_constraint(&text), text, sink)
+}
+
+fn kept(result: Result<Expression, Box<Diagnostic>>, text: Text, sink: &mut Sink<'_>) -> Equation {
+    let expression = match result {
         Ok(expression) => Some(expression),
         Err(diagnostic) => {
             sink.push(*diagnostic);
@@ -148,18 +163,19 @@ pub(super) fn parsed(text: Text, sink: &mut Sink<'_>) -> Equation {
 pub(super) fn equations(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Equation>> {
     let mut equations = Vec::new();
     for entry in entries {
-        if let Some(value) = equation(entry, sink) {
-            equations.push(Named { name: entry.key.clone(), span: entry.key_span, value });
-        }
+        // An equation of the wrong type is there all the same: it must not be reported as missing.
+        let broken = || Equation { text: Text::bare("", entry.value.span), expression: None };
+        let value = equation(entry, sink).unwrap_or_else(broken);
+        equations.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     equations
 }
 
-/// An array of strings.
-pub(super) fn strings(entry: &Entry, example: &str, sink: &mut Sink<'_>) -> Vec<Text> {
+/// An array of strings; `None` if it is none.
+pub(super) fn strings(entry: &Entry, example: &str, sink: &mut Sink<'_>) -> Option<Vec<Text>> {
     let ValueKind::Array(values) = &entry.value.kind else {
         sink.wrong_type(&entry.value, &entry.key, "an array of strings", example);
-        return Vec::new();
+        return None;
     };
     let mut texts = Vec::new();
     for value in values {
@@ -168,7 +184,7 @@ pub(super) fn strings(entry: &Entry, example: &str, sink: &mut Sink<'_>) -> Vec<
             _ => sink.wrong_type(value, &entry.key, "an array of strings", example),
         }
     }
-    texts
+    (texts.len() == values.len()).then_some(texts)
 }
 
 /// An array of two quantities.

@@ -39,8 +39,9 @@ const VERSION: i64 = 1;
 pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
     let mut sink = Sink { diagnostics, complete };
     let sink = &mut sink;
-    let fields = Fields::new(document, start, "a spec".to_owned(), KEYS, sink);
+    let fields = Fields::new(document, start, "the spec".to_owned(), KEYS, sink);
     version(&fields, sink);
+    too_many(&fields, sink);
     unsupported(
         &fields,
         "use",
@@ -73,6 +74,24 @@ pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &
     }
     check_name(&spec, sink);
     spec
+}
+
+/// Most states and most modes: a model with more would not fit into the sizes of generated code.
+const STATE_LIMIT: usize = 256;
+/// Most entries of any other table.
+const ENTRY_LIMIT: usize = 10_000;
+
+/// Reports tables of absurd size; nothing is lowered then.
+fn too_many(fields: &Fields<'_>, sink: &mut Sink<'_>) {
+    for key in KEYS {
+        let Some(entry) = fields.get(key) else { continue };
+        let ValueKind::Table(table) = &entry.value.kind else { continue };
+        let limit = if matches!(*key, "state" | "modes") { STATE_LIMIT } else { ENTRY_LIMIT };
+        if table.entries.len() > limit {
+            let message = format!("[{key}] has {} entries, and can have {limit}", table.entries.len());
+            sink.push(Diagnostic::error(Code::TooLarge, message).at(entry.key_span, "").help("split the model"));
+        }
+    }
 }
 
 fn version(fields: &Fields<'_>, sink: &mut Sink<'_>) {

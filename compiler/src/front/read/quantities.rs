@@ -38,10 +38,10 @@ fn state(entry: &Entry, sink: &mut Sink<'_>) -> State {
     let Some(fields) = fields_of(entry, "state", &["unit", "doc", "modes"], sink) else {
         return broken;
     };
-    let unit = fields.require("unit", "unit = \"m/s\"` (or `unit = \"1\"` for a pure number)", sink);
+    let unit = fields.require("unit", "unit = \"m/s\"", sink);
     State {
         unit: unit.and_then(|entry| string(entry, "unit = \"m/s\"", sink)),
-        modes: fields.get("modes").map(|entry| strings(entry, "modes = [\"stance\"]", sink)),
+        modes: fields.get("modes").and_then(|entry| strings(entry, "modes = [\"stance\"]", sink)),
         doc: fields.doc("doc", sink),
     }
 }

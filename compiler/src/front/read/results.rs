@@ -1,6 +1,6 @@
 //! The tables `[measures]` and `[problems]`.
 
-use super::fields::{Fields, Sink, equation, interval, parsed, strings};
+use super::fields::{Fields, Sink, constraint, equation, interval, strings};
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
@@ -34,13 +34,13 @@ pub(super) fn problems(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Prob
             continue;
         };
         let example = "subject_to = [\"spectral_radius <= 0.95\"]";
-        let subject_to = fields.get("subject_to").map(|entry| strings(entry, example, sink)).unwrap_or_default();
+        let subject_to = fields.get("subject_to").and_then(|entry| strings(entry, example, sink)).unwrap_or_default();
         let value = Problem {
             doc: fields.doc("doc", sink),
             default: default(&fields, sink),
             objective: objective(&fields, sink),
             vary: vary(&fields, sink),
-            subject_to: subject_to.into_iter().map(|text| parsed(text, sink)).collect(),
+            subject_to: subject_to.into_iter().map(|text| constraint(text, sink)).collect(),
         };
         problems.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }

@@ -1,0 +1,58 @@
+//! On which side of a surface a segment starts: the first of value, time derivative, look ahead that is not zero.
+//!
+//! So the guard that has just fired neither fires again at once nor is lost.
+
+use super::surface::{Reading, Side};
+use crate::model::Direction;
+
+/// How far ahead, as fractions of a typical step, the function is looked at when value and rate are both zero.
+const LOOK_AHEAD: [f64; 3] = [1e-2, 1e-1, 1.0];
+
+/// Where a segment starts relative to a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Start {
+    /// The side that it is on, or goes to.
+    pub(crate) side: Side,
+    /// Whether value and rate are both zero.
+    pub(crate) tangent: bool,
+}
+
+/// The side of a surface on which a segment starts. `typical` is a typical step size, `ahead(d)` the function's value
+/// after a short time d.
+pub(crate) fn arm(reading: &Reading, typical: f64, ahead: &impl Fn(f64) -> f64) -> Start {
+    if reading.value.abs() > reading.rounding {
+        return Start {
+            side: Side::of(reading.value),
+            tangent: false,
+        };
+    }
+    if (reading.rate * typical).abs() > reading.rounding {
+        return Start {
+            side: Side::of(reading.rate),
+            tangent: false,
+        };
+    }
+    for fraction in LOOK_AHEAD {
+        let value = ahead(fraction * typical);
+        if value.abs() > reading.rounding {
+            return Start {
+                side: Side::of(value),
+                tangent: true,
+            };
+        }
+    }
+    Start {
+        side: Side::Unknown,
+        tangent: true,
+    }
+}
+
+/// Whether a segment that starts so ends at once: it stands on the guard, with no rate, and turns the way that fires.
+pub(crate) fn ends_at_once(start: Start, direction: Direction) -> bool {
+    let fires = match direction {
+        Direction::Falling => start.side == Side::Negative,
+        Direction::Rising => start.side == Side::Positive,
+        Direction::Either => false,
+    };
+    start.tangent && fires
+}

@@ -1,0 +1,195 @@
+//! The return map as a loop: embed, flow and transitions until the section's transition, symmetry, coordinates.
+//!
+//! P = symmetry o R o embed, composed `period` times; derivatives are carried through all of it as columns.
+
+use super::functionals::{Variation, Varied, along, observe};
+use super::passing::Place;
+use super::rates::Rates;
+use super::run::Run;
+use crate::model::Model;
+use crate::return_map::{MapRequest, StopReason};
+
+/// Section coordinates, the first d of N, and their variations.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coordinates<const N: usize, const C: usize> {
+    /// Values.
+    pub(crate) z: [f64; N],
+    /// Variations, one array a column.
+    pub(crate) dz: [[f64; N]; C],
+}
+
+impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'_, M, R, N, P, Q, W, C>
+where
+    M: Model<N, P, Q>,
+    R: Rates<M, N, P, Q, W, C>,
+{
+    /// Runs the whole map from the section coordinates `at`; returns where it ends and the full state at its start.
+    pub(crate) fn map(
+        &mut self,
+        request: &MapRequest<'_>,
+        section: usize,
+        mut at: Coordinates<N, C>,
+    ) -> Result<(Coordinates<N, C>, [f64; N]), StopReason> {
+        let mut first = [0.0; N];
+        for turn in 0..request.period {
+            self.embed(&at);
+            if turn == 0 {
+                first = self.step.start.x;
+            }
+            self.segment.mode = M::INFO
+                .transitions
+                .get(section)
+                .map_or(usize::MAX, |t| t.to);
+            self.segment.memory.clear();
+            self.segment.memory.extend_from_slice(request.memory);
+            self.step.tau = 0.0;
+            self.deadline = self.segment.start + self.accuracy.time_limit;
+            self.check_finite()?;
+            self.begin(turn == 0 && request.measures)?;
+            self.to_section(section, turn + 1 == request.period && request.measures)?;
+            at = self.project();
+        }
+        Ok((at, first))
+    }
+
+    /// Starts the segment that follows the start of a map or a transition.
+    fn begin(&mut self, record: bool) -> Result<(), StopReason> {
+        self.enter(None)?;
+        let place = Place {
+            dx: self.step.start.dx,
+            dtau: [0.0; C],
+            dt: self.segment.dstart,
+        };
+        self.begin_extrema(&place);
+        if record {
+            let (segment, x) = (&self.segment, &self.step.start.x);
+            self.functionals.record_start(M::INFO, |o| {
+                observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(0.0), |g, c| {
+                    along(
+                        g,
+                        Variation {
+                            dx: &place.dx[c],
+                            dp: &segment.dp[c],
+                            dtau: 0.0,
+                            dt: place.dt[c],
+                        },
+                    )
+                })
+            });
+        }
+        Ok(())
+    }
+
+    fn to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
+        loop {
+            self.advance()?;
+            let found = self.first_events();
+            let Some(first) = found.first() else {
+                self.examine_extrema();
+                self.move_on();
+                continue;
+            };
+            self.shorten(first.h);
+            self.examine_extrema();
+            let last = record && self.fires(first.watched, section);
+            match self.pass(&found, last)? {
+                Some(transition) if transition == section => return Ok(()),
+                Some(_) => self.begin(false)?,
+                None => {}
+            }
+        }
+    }
+
+    fn fires(&self, watched: usize, section: usize) -> bool {
+        self.watched
+            .get(watched)
+            .is_some_and(|w| w.surface == crate::event::Surface::Transition(section))
+    }
+
+    fn embed(&mut self, at: &Coordinates<N, C>) {
+        let z = at.z.get(..M::INFO.coordinates.len()).unwrap_or(&[]);
+        let y = &mut self.step.start;
+        y.x = M::embed(z, self.segment.p);
+        if C == 0 {
+            return;
+        }
+        let mut by_z = [[0.0; N]; N];
+        let by_p = M::embed_jacobian(
+            z,
+            self.segment.p,
+            by_z.get_mut(..z.len()).unwrap_or(&mut []),
+        );
+        for c in 0..C {
+            for i in 0..N {
+                let mut sum = 0.0;
+                for j in 0..z.len() {
+                    sum += by_z[j][i] * at.dz[c][j];
+                }
+                for j in 0..P {
+                    sum += by_p[j][i] * self.segment.dp[c][j];
+                }
+                y.dx[c][i] = sum;
+            }
+        }
+    }
+
+    /// Applies the symmetry to the state just after the section's transition and takes its coordinates.
+    fn project(&self) -> Coordinates<N, C> {
+        let y = &self.step.start;
+        let (mut x, mut dx) = (y.x, y.dx);
+        if M::INFO.symmetric {
+            let s = M::symmetry_jacobian(&y.x, self.segment.p);
+            x = s.value;
+            for c in 0..C {
+                for i in 0..N {
+                    let mut sum = 0.0;
+                    for j in 0..N {
+                        sum += s.dx[j][i] * y.dx[c][j];
+                    }
+                    for j in 0..P {
+                        sum += s.dp[j][i] * self.segment.dp[c][j];
+                    }
+                    dx[c][i] = sum;
+                }
+            }
+        }
+        let mut result = Coordinates {
+            z: [0.0; N],
+            dz: [[0.0; N]; C],
+        };
+        for (k, &i) in M::INFO
+            .coordinates
+            .iter()
+            .enumerate()
+            .filter(|(k, i)| *k < N && **i < N)
+        {
+            result.z[k] = x[i];
+            for c in 0..C {
+                result.dz[c][k] = dx[c][i];
+            }
+        }
+        result
+    }
+
+    /// All functionals, at the end of the map.
+    pub(crate) fn functionals(&self) -> Vec<Varied<C>> {
+        let y = &self.step.start;
+        let integral = |k: usize| {
+            let value = y.q.get(k).copied().unwrap_or(f64::NAN);
+            Varied {
+                value,
+                gradient: core::array::from_fn(|c| y.dq[c].get(k).copied().unwrap_or(f64::NAN)),
+            }
+        };
+        self.functionals.finish(M::INFO, integral, self.duration())
+    }
+
+    /// Duration of the map so far, at an event.
+    pub(crate) fn duration(&self) -> Varied<C> {
+        Varied {
+            value: self.segment.start,
+            gradient: self.segment.dstart,
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! Hybrid return maps: flow, events, resets, with exact first derivatives, for any compiled model.
+//!
+//! [`Hybrid`] implements the object-safe [`ReturnMap`] on top of [`Model`]. All inner loops are compiled for the model
+//! and for the number of sensitivity columns (padded to the next width in store; more columns take several passes).
+
+mod extremum;
+mod functionals;
+mod map;
+mod passing;
+mod rates;
+mod request;
+mod run;
+mod segment;
+
+use crate::model::{Model, ModelInfo};
+use crate::return_map::{
+    MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
+};
+use core::marker::PhantomData;
+use functionals::{Functionals, Varied};
+use map::Coordinates;
+use nalgebra::{DMatrix, DVector};
+use rates::{Bare, Rates, Whole};
+use run::Run;
+
+/// The largest number of columns in one pass.
+const WIDEST: usize = 12;
+
+/// The return map of a compiled model.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Hybrid<M, const N: usize, const P: usize, const Q: usize>(pub PhantomData<M>);
+
+impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M, N, P, Q> {
+    /// The return map of `M`.
+    pub const fn new() -> Self {
+        const {
+            assert!(M::INFO.states.len() == N, "number of states");
+            assert!(M::INFO.parameters.len() == P, "number of parameters");
+            assert!(
+                M::INFO.coordinates.len() <= N,
+                "more section coordinates than states"
+            );
+        }
+        Self(PhantomData)
+    }
+
+    fn evaluate_columns(
+        &self,
+        request: &MapRequest<'_>,
+        section: usize,
+    ) -> Result<MapResult, Stop> {
+        let coordinates = M::INFO.coordinates.len();
+        let (count, chosen): (usize, &[usize]) = match request.sensitivity {
+            Sensitivity::None => (0, &[]),
+            Sensitivity::Coordinates => (coordinates, &[]),
+            Sensitivity::CoordinatesAndParameters(chosen) => (coordinates + chosen.len(), chosen),
+        };
+        let mut result: Option<MapResult> = None;
+        let mut first = 0;
+        loop {
+            let width = (count - first).min(WIDEST);
+            let columns = Columns {
+                first,
+                width,
+                coordinates,
+                chosen,
+            };
+            let part = dispatch::<M, N, P, Q>(request, section, columns)?;
+            result = Some(match result {
+                None => part,
+                Some(all) => append(all, part),
+            });
+            first += width;
+            if first >= count {
+                break;
+            }
+        }
+        result.ok_or(Stop {
+            reason: StopReason::NotFinite,
+            time: 0.0,
+            state: Vec::new(),
+        })
+    }
+}
+
+impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMap
+    for Hybrid<M, N, P, Q>
+{
+    fn info(&self) -> &'static ModelInfo {
+        M::INFO
+    }
+
+    fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError> {
+        let section = request::check(M::INFO, request)?;
+        Ok(match self.evaluate_columns(request, section) {
+            Ok(result) => MapOutcome::Completed(Box::new(result)),
+            Err(stop) => MapOutcome::Stopped(stop),
+        })
+    }
+}
+
+/// The sensitivity columns of one pass: `width` from number `first`, out of coordinates, then chosen parameters.
+#[derive(Clone, Copy, Debug)]
+struct Columns<'a> {
+    first: usize,
+    width: usize,
+    coordinates: usize,
+    chosen: &'a [usize],
+}
+
+fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    request: &MapRequest<'_>,
+    section: usize,
+    columns: Columns<'_>,
+) -> Result<MapResult, Stop> {
+    let bare = !request.measures && columns.chosen.is_empty();
+    macro_rules! widths {
+        ($($c:literal),+) => {
+            match columns.width {
+                $(width if width <= $c => {
+                    if bare {
+                        pass::<M, Bare, N, P, Q, 0, $c>(request, section, columns)
+                    } else {
+                        pass::<M, Whole, N, P, Q, Q, $c>(request, section, columns)
+                    }
+                })+
+                _ => Err(Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() }),
+            }
+        };
+    }
+    widths!(0, 1, 2, 3, 4, 6, 8, 12)
+}
+
+fn pass<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
+    request: &MapRequest<'_>,
+    section: usize,
+    columns: Columns<'_>,
+) -> Result<MapResult, Stop>
+where
+    M: Model<N, P, Q>,
+    R: Rates<M, N, P, Q, W, C>,
+{
+    let mut p = [0.0; P];
+    p.copy_from_slice(request.parameters);
+    let mut at = Coordinates {
+        z: [0.0; N],
+        dz: [[0.0; N]; C],
+    };
+    at.z[..request.coordinates.len()].copy_from_slice(request.coordinates);
+    let mut dp = [[0.0; P]; C];
+    for c in 0..columns.width.min(C) {
+        let column = columns.first + c;
+        if column < columns.coordinates {
+            at.dz[c][column] = 1.0;
+        } else if let Some(&parameter) = columns.chosen.get(column - columns.coordinates) {
+            dp[c][parameter] = 1.0;
+        }
+    }
+    let functionals = Functionals::new(M::INFO, request.measures);
+    let mut run = Run::<M, R, N, P, Q, W, C>::new(request.accuracy, &p, dp, functionals);
+    match run.map(request, section, at) {
+        Ok((end, state)) => Ok(gather(&run, request, columns, &end, &state)),
+        Err(reason) => Err(Stop {
+            reason,
+            time: run.time(),
+            state: run.step.start.x.to_vec(),
+        }),
+    }
+}
+
+fn gather<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
+    run: &Run<'_, M, R, N, P, Q, W, C>,
+    request: &MapRequest<'_>,
+    columns: Columns<'_>,
+    end: &Coordinates<N, C>,
+    state: &[f64; N],
+) -> MapResult
+where
+    M: Model<N, P, Q>,
+    R: Rates<M, N, P, Q, W, C>,
+{
+    let (d, width) = (columns.coordinates, columns.width.min(C));
+    let duration = run.duration();
+    let (measures, measures_jacobian) = if request.measures {
+        measures::<M, N, P, Q, C>(&run.functionals(), &run.segment.dp, run.segment.p, width)
+    } else {
+        (DVector::zeros(0), DMatrix::zeros(0, width))
+    };
+    MapResult {
+        coordinates: DVector::from_fn(d, |i, _| end.z[i]),
+        jacobian: DMatrix::from_fn(d, width, |i, c| end.dz[c][i]),
+        state: DVector::from_column_slice(state),
+        duration: duration.value,
+        duration_gradient: DVector::from_fn(width, |c, _| duration.gradient[c]),
+        measures,
+        measures_jacobian,
+        events: run.events.clone(),
+        statistics: run.statistics,
+        warnings: run.warnings.clone(),
+    }
+}
+
+/// Measures and their derivatives along the columns, by the chain rule.
+fn measures<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>(
+    functionals: &[Varied<C>],
+    dp: &[[f64; P]; C],
+    p: &[f64; P],
+    width: usize,
+) -> (DVector<f64>, DMatrix<f64>) {
+    let values: Vec<f64> = functionals.iter().map(|f| f.value).collect();
+    let (m, f) = (M::INFO.measures.len(), values.len());
+    let mut measures = vec![0.0; m];
+    M::measures(&values, p, &mut measures);
+    let mut by_functional = vec![0.0; m * f];
+    let mut by_parameter = vec![[0.0; P]; m];
+    if width > 0 {
+        M::measures_jacobian(&values, p, &mut by_functional, &mut by_parameter);
+    }
+    let jacobian = DMatrix::from_fn(m, width, |i, c| {
+        let mut sum = 0.0;
+        for j in 0..f {
+            let slope = by_functional[i * f + j];
+            // A functional that a measure does not depend on must not spoil it.
+            if slope != 0.0 {
+                sum += slope * functionals[j].gradient[c];
+            }
+        }
+        for j in 0..P {
+            sum += by_parameter[i][j] * dp[c][j];
+        }
+        sum
+    });
+    (DVector::from_vec(measures), jacobian)
+}
+
+/// Appends the columns of a further pass of the same map.
+fn append(mut all: MapResult, part: MapResult) -> MapResult {
+    let side_by_side = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
+        DMatrix::from_fn(a.nrows(), a.ncols() + b.ncols(), |i, j| {
+            if j < a.ncols() {
+                a[(i, j)]
+            } else {
+                b[(i, j - a.ncols())]
+            }
+        })
+    };
+    all.jacobian = side_by_side(&all.jacobian, &part.jacobian);
+    all.measures_jacobian = side_by_side(&all.measures_jacobian, &part.measures_jacobian);
+    let split = all.duration_gradient.len();
+    all.duration_gradient = DVector::from_fn(split + part.duration_gradient.len(), |c, _| {
+        if c < split {
+            all.duration_gradient[c]
+        } else {
+            part.duration_gradient[c - split]
+        }
+    });
+    all.statistics.steps += part.statistics.steps;
+    all.statistics.rejected += part.statistics.rejected;
+    all.statistics.evaluations += part.statistics.evaluations;
+    all
+}

@@ -1,0 +1,229 @@
+//! A run in progress: the state of everything, and the integration of one smooth step.
+//!
+//! The other files of this folder add to [`Run`]: `segment` (start of a segment, events in a step), `passing` (switches
+//! and transitions), `extremum`, `map` (the loop from section to section).
+
+use super::functionals::Functionals;
+use super::rates::{Rates, Segment};
+use crate::event::{Reading, Side, Surface, read};
+use crate::model::{Direction, Model};
+use crate::ode::{Bundle, Controller, Step, Tolerance, attempt, error};
+use crate::return_map::{Accuracy, Event, Statistics, StopReason, Warning};
+use core::marker::PhantomData;
+
+/// Steps in a row that may fail before the run gives up.
+const MOST_REJECTIONS: usize = 80;
+
+/// A surface that is watched in the current segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Watched {
+    /// Which.
+    pub(crate) surface: Surface,
+    /// The passages that count.
+    pub(crate) direction: Direction,
+    /// Where the run is.
+    pub(crate) side: Side,
+    /// Reading at the start of the current step.
+    pub(crate) start: Reading,
+    /// Reading at its end.
+    pub(crate) end: Reading,
+    /// Largest magnitude of the value in the segment.
+    pub(crate) largest: f64,
+    /// Largest magnitude of the rate in the segment.
+    pub(crate) fastest: f64,
+}
+
+/// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
+pub(crate) struct Run<
+    'a,
+    M,
+    R,
+    const N: usize,
+    const P: usize,
+    const Q: usize,
+    const W: usize,
+    const C: usize,
+> {
+    /// How accurately and how far.
+    pub(crate) accuracy: Accuracy,
+    /// What is constant in the segment.
+    pub(crate) segment: Segment<'a, P, C>,
+    /// The step that was taken last; its start is where the run is.
+    pub(crate) step: Step<Bundle<N, W, C>>,
+    /// Step size control.
+    pub(crate) controller: Controller,
+    /// Size of the next step; 0 before the first.
+    pub(crate) h: f64,
+    /// Surfaces of the current mode.
+    pub(crate) watched: Vec<Watched>,
+    /// Functionals other than integrals.
+    pub(crate) functionals: Functionals<C>,
+    /// What happened.
+    pub(crate) events: Vec<Event>,
+    /// What the user has to know.
+    pub(crate) warnings: Vec<Warning>,
+    /// Work done.
+    pub(crate) statistics: Statistics,
+    /// Time since the start of the run after which no step is taken [s].
+    pub(crate) deadline: f64,
+    /// Events in a row that followed almost at once.
+    pub(crate) hasty: usize,
+    pub(crate) kind: PhantomData<(M, R)>,
+}
+
+impl<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'a, M, R, N, P, Q, W, C>
+where
+    M: Model<N, P, Q>,
+    R: Rates<M, N, P, Q, W, C>,
+{
+    /// A run that has not started.
+    pub(crate) fn new(
+        accuracy: Accuracy,
+        p: &'a [f64; P],
+        dp: [[f64; P]; C],
+        functionals: Functionals<C>,
+    ) -> Self {
+        let zero = Bundle::ZERO;
+        let step = Step {
+            tau: 0.0,
+            h: 0.0,
+            start: zero,
+            stages: [zero; 12],
+            end: zero,
+            end_rates: zero,
+        };
+        let (memory, branch) = (Vec::new(), vec![false; M::INFO.switches.len()]);
+        Self {
+            accuracy,
+            segment: Segment {
+                mode: 0,
+                start: 0.0,
+                p,
+                memory,
+                branch,
+                dp,
+                dstart: [0.0; C],
+            },
+            step,
+            controller: Controller::default(),
+            h: 0.0,
+            watched: Vec::new(),
+            functionals,
+            events: Vec::new(),
+            warnings: Vec::new(),
+            statistics: Statistics::default(),
+            deadline: accuracy.time_limit,
+            hasty: 0,
+            kind: PhantomData,
+        }
+    }
+
+    /// Tolerance of the local error.
+    pub(crate) fn tolerance(&self) -> Tolerance {
+        Tolerance {
+            relative: self.accuracy.relative,
+            absolute: self.accuracy.absolute,
+        }
+    }
+
+    /// Time since the start of the run.
+    pub(crate) fn time(&self) -> f64 {
+        self.segment.start + self.step.tau
+    }
+
+    /// The flow without variations.
+    #[inline]
+    pub(crate) fn flow(segment: &Segment<'_, P, C>, tau: f64, x: &[f64; N]) -> [f64; N] {
+        M::flow(segment.mode, x, &segment.env(tau))
+    }
+
+    /// Takes one step that satisfies the error control, and reads all surfaces at its end.
+    pub(crate) fn advance(&mut self) -> Result<(), StopReason> {
+        let tolerance = self.tolerance();
+        let mut failure = StopReason::StepTooSmall;
+        for _ in 0..MOST_REJECTIONS {
+            let rest = self.deadline - self.time();
+            if rest <= f64::EPSILON * self.deadline {
+                return Err(StopReason::NoEvent);
+            }
+            if self.statistics.steps + self.statistics.rejected >= self.accuracy.step_limit {
+                return Err(StopReason::StepLimit);
+            }
+            let h = self.h.min(rest);
+            // Written so that NaN stops, too.
+            if !(h > 2.0 * f64::EPSILON * self.step.tau) {
+                return Err(failure);
+            }
+            self.try_step(h);
+            let mut size = error(
+                h,
+                &self.step.start,
+                &self.step.end,
+                &self.step.stages,
+                tolerance,
+            );
+            if size <= 1.0 && !self.finish_step() {
+                size = f64::NAN;
+            }
+            let (accepted, next) = self.controller.judge(size, h);
+            self.h = next;
+            if accepted {
+                self.statistics.steps += 1;
+                return Ok(());
+            }
+            failure = if size.is_finite() {
+                StopReason::StepTooSmall
+            } else {
+                StopReason::NotFinite
+            };
+            self.statistics.rejected += 1;
+        }
+        Err(failure)
+    }
+
+    #[inline]
+    fn try_step(&mut self, h: f64) {
+        let segment = &self.segment;
+        let rates = |tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y);
+        self.step.h = h;
+        self.step.end = attempt(
+            &rates,
+            self.step.tau,
+            h,
+            &self.step.start,
+            &mut self.step.stages,
+        );
+        self.statistics.evaluations += 11;
+    }
+
+    /// Flow and surfaces at the end of the step; false when any is not finite.
+    fn finish_step(&mut self) -> bool {
+        let tau = self.step.tau + self.step.h;
+        self.step.end_rates = R::rates(&self.segment, tau, &self.step.end);
+        self.statistics.evaluations += 1;
+        let (x, flow) = (&self.step.end.x, &self.step.end_rates.x);
+        let env = self.segment.env(tau);
+        let mut finite = flow.iter().all(|v| v.is_finite());
+        for watched in &mut self.watched {
+            watched.end = read::<M, N, P, Q>(watched.surface, x, flow, &env);
+            finite &= watched.end.value.is_finite();
+        }
+        finite
+    }
+
+    /// Replaces the step by a shorter one from the same start that ends at an event.
+    pub(crate) fn shorten(&mut self, h: f64) {
+        self.try_step(h);
+        let tau = self.step.tau + h;
+        self.step.end_rates = R::rates(&self.segment, tau, &self.step.end);
+        self.statistics.evaluations += 1;
+    }
+
+    /// Makes the end of the step the place where the run is.
+    pub(crate) fn move_on(&mut self) {
+        self.step.tau += self.step.h;
+        self.step.start = self.step.end;
+        self.step.stages[0] = self.step.end_rates;
+    }
+}

@@ -1,0 +1,92 @@
+//! What is integrated: a state with its integrals and the variations of both, one block of arrays.
+//!
+//! With x' = f(x) and I' = i(x), the columns v of variations obey v' = (df/dx) v + (df/dp) w and so on (the variational
+//! equations); all are advanced by the same linear combinations of stages.
+
+/// N states, Q integrals and C columns of their variations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bundle<const N: usize, const Q: usize, const C: usize> {
+    /// The state.
+    pub x: [f64; N],
+    /// The integrals.
+    pub q: [f64; Q],
+    /// Variations of the state, one array a column.
+    pub dx: [[f64; N]; C],
+    /// Variations of the integrals, one array a column.
+    pub dq: [[f64; Q]; C],
+}
+
+/// What a Runge-Kutta method needs to know of what it integrates.
+pub trait OdeState: Copy {
+    /// All zeros.
+    const ZERO: Self;
+
+    /// `self + h * sum(weights[i] * stages[i])`.
+    fn advance<const S: usize>(&self, h: f64, weights: [f64; S], stages: [&Self; S]) -> Self;
+
+    /// Calls `visit(block, start, end)` for each group of components that shares one error norm. The groups of `self`
+    /// and `others` are passed side by side.
+    fn blocks<const S: usize>(
+        &self,
+        others: [&Self; S],
+        visit: &mut impl FnMut(&[f64], [&[f64]; S]),
+    );
+}
+
+impl<const N: usize, const Q: usize, const C: usize> Bundle<N, Q, C> {
+    /// All zeros.
+    pub const ZERO: Self = Self {
+        x: [0.0; N],
+        q: [0.0; Q],
+        dx: [[0.0; N]; C],
+        dq: [[0.0; Q]; C],
+    };
+}
+
+#[inline(always)]
+fn combine<const S: usize, const L: usize>(
+    base: &[f64; L],
+    h: f64,
+    weights: &[f64; S],
+    stages: [&[f64; L]; S],
+) -> [f64; L] {
+    let mut result = [0.0; L];
+    for i in 0..L {
+        let mut sum = 0.0;
+        for s in 0..S {
+            sum += weights[s] * stages[s][i];
+        }
+        result[i] = base[i] + h * sum;
+    }
+    result
+}
+
+impl<const N: usize, const Q: usize, const C: usize> OdeState for Bundle<N, Q, C> {
+    const ZERO: Self = Bundle::ZERO;
+
+    #[inline(always)]
+    fn advance<const S: usize>(&self, h: f64, weights: [f64; S], stages: [&Self; S]) -> Self {
+        let mut result = Self::ZERO;
+        result.x = combine(&self.x, h, &weights, stages.map(|s| &s.x));
+        result.q = combine(&self.q, h, &weights, stages.map(|s| &s.q));
+        for c in 0..C {
+            result.dx[c] = combine(&self.dx[c], h, &weights, stages.map(|s| &s.dx[c]));
+            result.dq[c] = combine(&self.dq[c], h, &weights, stages.map(|s| &s.dq[c]));
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn blocks<const S: usize>(
+        &self,
+        others: [&Self; S],
+        visit: &mut impl FnMut(&[f64], [&[f64]; S]),
+    ) {
+        visit(&self.x, others.map(|o| o.x.as_slice()));
+        visit(&self.q, others.map(|o| o.q.as_slice()));
+        for c in 0..C {
+            visit(&self.dx[c], others.map(|o| o.dx[c].as_slice()));
+            visit(&self.dq[c], others.map(|o| o.dq[c].as_slice()));
+        }
+    }
+}

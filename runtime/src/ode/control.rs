@@ -1,0 +1,95 @@
+//! Step size: a proportional-integral controller and the size of the first step.
+//!
+//! h_new = h * safety * err^(-alpha) * err_old^beta (Gustafsson; Hairer, Norsett, Wanner, section II.4), bounded, and
+//! not growing right after a rejection.
+
+use super::step::Tolerance;
+
+const ORDER: f64 = 8.0;
+const BETA: f64 = 0.02;
+const SAFETY: f64 = 0.9;
+const LARGEST_GROWTH: f64 = 6.0;
+const LARGEST_SHRINK: f64 = 1.0 / 3.0;
+/// How much a step shrinks when a value was not finite.
+const NOT_FINITE_SHRINK: f64 = 0.25;
+
+/// Proposes step sizes from errors.
+#[derive(Clone, Copy, Debug)]
+pub struct Controller {
+    previous: f64,
+    rejected: bool,
+}
+
+impl Default for Controller {
+    fn default() -> Self {
+        Self {
+            previous: 1e-4,
+            rejected: false,
+        }
+    }
+}
+
+impl Controller {
+    /// Whether a step with this error is accepted, and the size of the next one (or of the next attempt).
+    pub fn judge(&mut self, error: f64, h: f64) -> (bool, f64) {
+        if !error.is_finite() {
+            self.rejected = true;
+            return (false, h * NOT_FINITE_SHRINK);
+        }
+        let alpha = 1.0 / ORDER - 0.2 * BETA;
+        let plain = SAFETY * error.max(1e-12).powf(-alpha);
+        if error > 1.0 {
+            self.rejected = true;
+            return (false, h * plain.clamp(LARGEST_SHRINK, 1.0));
+        }
+        let limit = if self.rejected { 1.0 } else { LARGEST_GROWTH };
+        let factor = (plain * self.previous.powf(BETA)).clamp(LARGEST_SHRINK, limit);
+        self.previous = error.max(1e-4);
+        self.rejected = false;
+        (true, h * factor)
+    }
+}
+
+/// A first step size from one more evaluation of the flow: the second derivative tells how fast the flow changes.
+pub fn first_step<const N: usize>(
+    flow: &impl Fn(f64, &[f64; N]) -> [f64; N],
+    tau: f64,
+    x: &[f64; N],
+    rate: &[f64; N],
+    tolerance: Tolerance,
+    longest: f64,
+) -> f64 {
+    let scaled = |v: &dyn Fn(usize) -> f64| {
+        let mut sum = 0.0;
+        for i in 0..N {
+            let scale = tolerance.absolute + tolerance.relative * x[i].abs();
+            sum += (v(i) / scale) * (v(i) / scale);
+        }
+        (sum / (N.max(1) as f64)).sqrt()
+    };
+    let (size, speed) = (scaled(&|i| x[i]), scaled(&|i| rate[i]));
+    let trial = if size > 1e-5 && speed > 1e-5 {
+        0.01 * size / speed
+    } else {
+        1e-6
+    };
+    let trial = trial.min(longest);
+    let mut ahead = *x;
+    for i in 0..N {
+        ahead[i] += trial * rate[i];
+    }
+    let later = flow(tau + trial, &ahead);
+    let bend = scaled(&|i| later[i] - rate[i]) / trial;
+    let largest = speed.max(bend);
+    let guess = if largest <= 1e-15 {
+        (trial * 1e-3).max(1e-6)
+    } else {
+        (0.01 / largest).powf(1.0 / ORDER)
+    };
+    let guess = if guess.is_finite() {
+        guess.min(100.0 * trial)
+    } else {
+        trial
+    };
+    guess.min(longest)
+}

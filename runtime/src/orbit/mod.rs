@@ -1,0 +1,10 @@
+//! Periodic orbits: gaits as fixed points of the return map, and their multipliers.
+//!
+//! [`find_gait`] solves P(z) = z; [`multipliers`] are the eigenvalues of dP/dz there. A gait is stable where all of
+//! them are smaller than 1 in magnitude.
+
+mod multipliers;
+mod newton;
+
+pub use multipliers::{multipliers, spectral_radius};
+pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};

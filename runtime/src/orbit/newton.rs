@@ -1,0 +1,337 @@
+//! Newton's method with line search for P(z) = z.
+//!
+//! With F(z) = P(z) - z the step solves (dP/dz - I) s = -F; it is shortened until the scaled residual falls, and also
+//! when the map has no next section crossing at the trial point. When Newton cannot go on, a few iterates of the map
+//! itself serve as new starts.
+
+use super::multipliers::{multipliers, spectral_radius};
+use crate::return_map::{
+    Accuracy, MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop,
+    StopReason,
+};
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// What to look for.
+#[derive(Clone, Copy, Debug)]
+pub struct GaitRequest<'a> {
+    /// All parameters, SI units.
+    pub parameters: &'a [f64],
+    /// Initial memory.
+    pub memory: &'a [f64],
+    /// How many maps make one period; at least 1.
+    pub period: usize,
+    /// Accuracy of the map.
+    pub accuracy: Accuracy,
+    /// Bound on the residual, relative to `max(1, |z_i|)` in each coordinate. Newton goes on below it as long as
+    /// that helps.
+    pub tolerance: f64,
+    /// Most Newton steps from one start.
+    pub iteration_limit: usize,
+    /// Whether functionals and measures of the gait are wanted.
+    pub measures: bool,
+}
+
+impl<'a> GaitRequest<'a> {
+    /// Period 1, default accuracy, tolerance 1e-10, 50 iterations, measures.
+    pub fn new(parameters: &'a [f64], memory: &'a [f64]) -> Self {
+        let accuracy = Accuracy::default();
+        Self {
+            parameters,
+            memory,
+            period: 1,
+            accuracy,
+            tolerance: 1e-10,
+            iteration_limit: 50,
+            measures: true,
+        }
+    }
+}
+
+/// A fixed point of the return map.
+#[derive(Clone, Debug)]
+pub struct Gait {
+    /// Section coordinates z, length d.
+    pub coordinates: DVector<f64>,
+    /// The map evaluated there: its Jacobian (d x d), state, duration, measures, events, warnings.
+    pub map: MapResult,
+    /// Eigenvalues of the Jacobian by falling magnitude; empty for a section without coordinates.
+    pub multipliers: Vec<Complex<f64>>,
+    /// Their largest magnitude; 0 when there are none.
+    pub spectral_radius: f64,
+}
+
+/// How the search ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GaitStatus {
+    /// The residual is within the tolerance.
+    Converged,
+    /// The map has no next section crossing where the search stands.
+    Stopped(Stop),
+    /// The search came to no fixed point.
+    NotConverged,
+}
+
+/// The result of a search.
+#[derive(Clone, Debug)]
+pub struct GaitOutcome {
+    /// How it ended.
+    pub status: GaitStatus,
+    /// One sentence for people.
+    pub message: String,
+    /// The fixed point when converged; else the last point where the map could be evaluated, if any.
+    pub gait: Option<Gait>,
+    /// Largest component of P(z) - z, each relative to `max(1, |z_i|)`; infinite when nothing could be evaluated.
+    pub residual: f64,
+    /// Newton steps taken, over all starts.
+    pub iterations: usize,
+}
+
+/// How often a Newton step is halved.
+const HALVINGS: usize = 20;
+/// How many iterates of the map serve as further starts.
+const FALLBACK_ITERATES: usize = 12;
+/// After each of so many iterates Newton is tried again.
+const ITERATES_A_START: usize = 4;
+
+/// Finds a gait near `guess` (section coordinates, SI units).
+///
+/// # Errors
+/// When the request is wrong: lengths, numbers that are not finite, a model without a section.
+pub fn find_gait(
+    map: &dyn ReturnMap,
+    request: &GaitRequest<'_>,
+    guess: &[f64],
+) -> Result<GaitOutcome, RequestError> {
+    let search = Search { map, request };
+    let mut start = guess.to_vec();
+    let mut best: Option<Point> = None;
+    let mut iterations = 0;
+    let mut stop = None;
+    for turn in 0..=FALLBACK_ITERATES / ITERATES_A_START {
+        match search.evaluate(&start)? {
+            Err(stopped) => {
+                stop = Some(stopped);
+                break;
+            }
+            Ok(point) => {
+                let point = search.newton(point, &mut iterations)?;
+                if best.as_ref().is_none_or(|b| point.residual < b.residual) {
+                    best = Some(point);
+                }
+            }
+        }
+        if best
+            .as_ref()
+            .is_some_and(|b| b.residual <= request.tolerance)
+        {
+            break;
+        }
+        if turn == 0 {
+            start = guess.to_vec();
+        }
+        match search.iterate(&start)? {
+            Some(next) => start = next,
+            None => break,
+        }
+    }
+    search.finish(best, stop, iterations)
+}
+
+/// A point of the section with the map evaluated there.
+#[derive(Clone, Debug)]
+struct Point {
+    z: DVector<f64>,
+    map: MapResult,
+    residual: f64,
+}
+
+struct Search<'a> {
+    map: &'a dyn ReturnMap,
+    request: &'a GaitRequest<'a>,
+}
+
+impl Search<'_> {
+    fn run(
+        &self,
+        z: &[f64],
+        sensitivity: Sensitivity<'_>,
+        measures: bool,
+    ) -> Result<MapOutcome, RequestError> {
+        self.map.evaluate(&MapRequest {
+            coordinates: z,
+            parameters: self.request.parameters,
+            memory: self.request.memory,
+            period: self.request.period,
+            sensitivity,
+            measures,
+            accuracy: self.request.accuracy,
+        })
+    }
+
+    fn evaluate(&self, z: &[f64]) -> Result<Result<Point, Stop>, RequestError> {
+        Ok(match self.run(z, Sensitivity::Coordinates, false)? {
+            MapOutcome::Stopped(stop) => Err(stop),
+            MapOutcome::Completed(map) => {
+                let z = DVector::from_column_slice(z);
+                let residual = residual(&z, &map.coordinates);
+                Ok(Point {
+                    z,
+                    map: *map,
+                    residual,
+                })
+            }
+        })
+    }
+
+    /// Newton with line search as long as the residual falls.
+    fn newton(&self, mut point: Point, iterations: &mut usize) -> Result<Point, RequestError> {
+        for _ in 0..self.request.iteration_limit {
+            if point.residual == 0.0 {
+                break;
+            }
+            let Some(step) = newton_step(&point) else {
+                break;
+            };
+            *iterations += 1;
+            let Some(better) = self.line_search(&point, &step)? else {
+                break;
+            };
+            point = better;
+        }
+        Ok(point)
+    }
+
+    /// The first point along the step where the residual falls sufficiently.
+    fn line_search(
+        &self,
+        point: &Point,
+        step: &DVector<f64>,
+    ) -> Result<Option<Point>, RequestError> {
+        let mut length = 1.0;
+        for _ in 0..HALVINGS {
+            let trial = &point.z + step * length;
+            if trial.iter().all(|v| v.is_finite())
+                && let Ok(better) = self.evaluate(trial.as_slice())?
+                && better.residual < point.residual * (1.0 - 0.1 * length)
+            {
+                return Ok(Some(better));
+            }
+            // Close to a solution a step that does not help is rounding: no use in shortening it.
+            if point.residual <= self.request.tolerance {
+                break;
+            }
+            length *= 0.5;
+        }
+        Ok(None)
+    }
+
+    /// Some iterates of the map; `None` when it stops.
+    fn iterate(&self, z: &[f64]) -> Result<Option<Vec<f64>>, RequestError> {
+        let mut z = z.to_vec();
+        for _ in 0..ITERATES_A_START {
+            match self.run(&z, Sensitivity::None, false)? {
+                MapOutcome::Stopped(_) => return Ok(None),
+                MapOutcome::Completed(map) => z = map.coordinates.as_slice().to_vec(),
+            }
+        }
+        Ok(Some(z))
+    }
+
+    fn finish(
+        &self,
+        best: Option<Point>,
+        stop: Option<Stop>,
+        iterations: usize,
+    ) -> Result<GaitOutcome, RequestError> {
+        let residual = best.as_ref().map_or(f64::INFINITY, |b| b.residual);
+        let converged = residual <= self.request.tolerance;
+        let status = match stop {
+            _ if converged => GaitStatus::Converged,
+            Some(stop) if best.is_none() => GaitStatus::Stopped(stop),
+            _ => GaitStatus::NotConverged,
+        };
+        let gait = match best {
+            Some(point) => Some(self.gait(point)?),
+            None => None,
+        };
+        let message = message(&status, residual, self.request.tolerance);
+        Ok(GaitOutcome {
+            status,
+            message,
+            gait,
+            residual,
+            iterations,
+        })
+    }
+
+    fn gait(&self, point: Point) -> Result<Gait, RequestError> {
+        let mut map = point.map;
+        if self.request.measures
+            && let MapOutcome::Completed(full) =
+                self.run(point.z.as_slice(), Sensitivity::Coordinates, true)?
+        {
+            map = *full;
+        }
+        let multipliers = multipliers(&map.jacobian);
+        let spectral_radius = spectral_radius(&multipliers);
+        Ok(Gait {
+            coordinates: point.z,
+            map,
+            multipliers,
+            spectral_radius,
+        })
+    }
+}
+
+fn residual(z: &DVector<f64>, image: &DVector<f64>) -> f64 {
+    let mut worst = 0.0;
+    for (a, b) in z.iter().zip(image) {
+        let component = (b - a).abs() / a.abs().max(1.0);
+        // Written so that NaN wins.
+        if !(component <= worst) {
+            worst = component;
+        }
+    }
+    worst
+}
+
+/// The Newton step; where the matrix is singular, the shortest step that solves in the least-squares sense.
+fn newton_step(point: &Point) -> Option<DVector<f64>> {
+    let d = point.z.len();
+    let matrix = &point.map.jacobian - DMatrix::identity(d, d);
+    let right = &point.z - &point.map.coordinates;
+    if let Some(step) = matrix.clone().lu().solve(&right)
+        && step.iter().all(|v| v.is_finite())
+    {
+        return Some(step);
+    }
+    let svd = matrix.svd(true, true);
+    let cut = 1e-12 * svd.singular_values.max();
+    svd.solve(&right, cut)
+        .ok()
+        .filter(|step| step.iter().all(|v| v.is_finite()))
+}
+
+fn message(status: &GaitStatus, residual: f64, tolerance: f64) -> String {
+    match status {
+        GaitStatus::Converged => format!("converged, residual {residual:.1e}"),
+        GaitStatus::Stopped(stop) => format!(
+            "the map has no next section crossing from the guess: {} after {:.4} s; try another guess or other parameters",
+            why(stop.reason),
+            stop.time
+        ),
+        GaitStatus::NotConverged => format!(
+            "no fixed point found: the residual stays at {residual:.1e}, above the tolerance {tolerance:.1e}; try another guess, or follow the gait from parameters where it is known"
+        ),
+    }
+}
+
+fn why(reason: StopReason) -> &'static str {
+    match reason {
+        StopReason::NoEvent => "no transition fired within the time limit",
+        StopReason::StepLimit => "the limit on steps was reached",
+        StopReason::StepTooSmall => "the error control asked for a step below rounding",
+        StopReason::NotFinite => "a value was not finite, the run left the model's domain",
+        StopReason::Zeno => "transitions piled up in time, or a step took no time",
+    }
+}

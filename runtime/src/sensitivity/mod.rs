@@ -1,0 +1,10 @@
+//! First derivatives of a run with respect to section coordinates and parameters.
+//!
+//! Inside a segment: the variational equations, advanced with the state. Across an event: [`saltation`].
+
+mod dual;
+mod saltation;
+
+pub use dual::Dual;
+pub(crate) use saltation::dot;
+pub use saltation::{Clock, Crossing, saltation_matrix};

@@ -1,0 +1,123 @@
+//! The saltation matrix: how variations pass an event.
+//!
+//! An event is where the guard g(x, tau, t, p) vanishes. With f- the flow before it, w the variation of the parameters
+//! and s that of the time at which the segment's clock tau was started, the event moves by
+//!
+//! ```text
+//! d tau* = -(g_x v + g_p w + g_t s) / (g_x f- + g_tau + g_t)
+//! ```
+//!
+//! and the state just after it, x+ = R(x-, tau, t, p), by
+//!
+//! ```text
+//! v_total = R_x (v + f- d tau*) + R_tau d tau* + R_t (s + d tau*) + R_p w.
+//! ```
+//!
+//! A segment that restarts its clock at the event starts with v+ = v_total and s+ = s + d tau*. Where the clock runs on
+//! (a switch of the flow), variations at fixed time are v+ = v_total - f+ d tau*; without parameter and time terms this
+//! is v+ = Xi v with the saltation matrix Xi = R_x + (f+ - R_x f- - R_t) g_x / (g_t + g_x f-) of Kong, Payne, Zhu and
+//! Johnson, "Saltation matrices: the essential tool for linearizing hybrid dynamical systems". The derivation is in
+//! docs/mathematics.md.
+
+use crate::model::{Gradient, Jacobian};
+
+/// What becomes of the clock tau at an event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clock<const N: usize> {
+    /// It starts again at 0: a transition.
+    Restarts,
+    /// It runs on, with this flow just after the event: a switch.
+    RunsOn([f64; N]),
+}
+
+/// An event: guard and reset linearised there.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing<'a, const N: usize, const P: usize> {
+    /// The guard.
+    pub guard: &'a Gradient<f64, N, P>,
+    /// The reset; `None` is the identity.
+    pub reset: Option<&'a Jacobian<f64, N, P>>,
+    /// The flow just before.
+    pub before: [f64; N],
+    /// The clock.
+    pub clock: Clock<N>,
+}
+
+impl<const N: usize, const P: usize> Crossing<'_, N, P> {
+    /// Time derivative of the guard along the flow before the event: the transversality.
+    pub fn transversality(&self) -> f64 {
+        dot(&self.guard.dx, &self.before) + self.guard.dtau + self.guard.dt
+    }
+
+    /// d tau*: how the time of the event, on the segment's clock, follows the variations `dx` (of the state at fixed
+    /// tau), `dp` (of the parameters) and `dstart` (of the time at which the clock started). 0 where the guard is
+    /// touched with zero transversality: the time has no derivative there, and the run carries a warning.
+    pub fn time_derivative(&self, dx: &[f64; N], dp: &[f64; P], dstart: f64) -> f64 {
+        let rate = self.transversality();
+        if rate == 0.0 {
+            return 0.0;
+        }
+        -(dot(&self.guard.dx, dx) + dot(&self.guard.dp, dp) + self.guard.dt * dstart) / rate
+    }
+
+    /// The variation of the state just after the event, on the clock that runs there; `dtau` as from
+    /// [`Self::time_derivative`].
+    pub fn pass(&self, dx: &[f64; N], dp: &[f64; P], dstart: f64, dtau: f64) -> [f64; N] {
+        let mut total = *dx;
+        for i in 0..N {
+            total[i] += self.before[i] * dtau;
+        }
+        if let Some(reset) = self.reset {
+            total = apply(reset, &total, dp, dstart, dtau);
+        }
+        if let Clock::RunsOn(after) = self.clock {
+            for i in 0..N {
+                total[i] -= after[i] * dtau;
+            }
+        }
+        total
+    }
+}
+
+/// The saltation matrix, as an array of columns: d x+ / d x- at fixed parameters.
+pub fn saltation_matrix<const N: usize, const P: usize>(
+    crossing: &Crossing<'_, N, P>,
+) -> [[f64; N]; N] {
+    let dp = [0.0; P];
+    core::array::from_fn(|j| {
+        let mut dx = [0.0; N];
+        dx[j] = 1.0;
+        let dtau = crossing.time_derivative(&dx, &dp, 0.0);
+        crossing.pass(&dx, &dp, 0.0, dtau)
+    })
+}
+
+fn apply<const N: usize, const P: usize>(
+    reset: &Jacobian<f64, N, P>,
+    total: &[f64; N],
+    dp: &[f64; P],
+    dstart: f64,
+    dtau: f64,
+) -> [f64; N] {
+    let mut result = [0.0; N];
+    for i in 0..N {
+        let mut sum = reset.dtau[i] * dtau + reset.dt[i] * (dstart + dtau);
+        for j in 0..N {
+            sum += reset.dx[j][i] * total[j];
+        }
+        for j in 0..P {
+            sum += reset.dp[j][i] * dp[j];
+        }
+        result[i] = sum;
+    }
+    result
+}
+
+/// Scalar product.
+pub(crate) fn dot<const L: usize>(a: &[f64; L], b: &[f64; L]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..L {
+        sum += a[i] * b[i];
+    }
+    sum
+}

@@ -1,0 +1,118 @@
+//! M_L: closed forms of its return map's Jacobian, its gait, its stability.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed expectation is a failed test
+
+mod common;
+
+use common::climbers::{M_L, parameters};
+use common::{check_derivatives, completed, request};
+use gaitc_runtime::orbit::{Gait, GaitRequest, GaitStatus, find_gait};
+use gaitc_runtime::return_map::{MapRequest, Sensitivity};
+
+#[test]
+fn determinant_is_the_closed_form() {
+    for psi in [5.0, 18.0, 25.0, 35.0, 39.0, 39.5, 44.0] {
+        for z in [[-0.35, -0.2], [-0.6, 0.4], [0.1, -0.9]] {
+            let p = parameters(psi);
+            let r = completed(
+                &M_L,
+                &MapRequest {
+                    memory: &[0.0],
+                    ..request(&z, &p, Sensitivity::Coordinates)
+                },
+            );
+            let exact = (2.0 * p[3]).cos() * (p[1] + p[0]) / p[1];
+            println!(
+                "{psi} {:e} {:?}",
+                r.jacobian.determinant() - exact,
+                r.statistics
+            );
+            approx::assert_abs_diff_eq!(r.jacobian.determinant(), exact, epsilon = 1e-12);
+        }
+    }
+}
+
+#[test]
+fn all_derivatives_agree_with_differences() {
+    let p = parameters(25.0);
+    let z = [-0.35, -0.2];
+    let base = MapRequest {
+        memory: &[0.0],
+        ..request(&z, &p, Sensitivity::None)
+    };
+    check_derivatives(&M_L, &base, &[0, 1, 2, 3, 4, 5], 2e-9);
+    check_derivatives(
+        &M_L,
+        &MapRequest { period: 2, ..base },
+        &[0, 1, 2, 3, 4, 5],
+        1e-8,
+    );
+}
+
+fn gait(psi: f64, guess: [f64; 2]) -> Gait {
+    let p = parameters(psi);
+    let outcome = find_gait(&M_L, &GaitRequest::new(&p, &[0.0]), &guess).unwrap();
+    assert_eq!(outcome.status, GaitStatus::Converged, "{}", outcome.message);
+    assert!(outcome.residual < 1e-13, "residual {}", outcome.residual);
+    outcome.gait.unwrap()
+}
+
+#[test]
+fn gaits_turn_stable_at_the_closed_form_sprawl() {
+    // cos(2 psi) = l_b/(l_b + l_s)
+    let turn = 0.5 * (0.5_f64 / 0.63).acos().to_degrees();
+    approx::assert_abs_diff_eq!(turn, 18.7360, epsilon = 5e-5);
+    let below = gait(turn - 1e-3, [-0.35, -0.2]);
+    let above = gait(turn + 1e-3, [-0.35, -0.2]);
+    assert!(below.spectral_radius > 1.0 && above.spectral_radius < 1.0);
+    let at = gait(turn, [-0.35, -0.2]);
+    approx::assert_abs_diff_eq!(at.spectral_radius, 1.0, epsilon = 1e-12);
+    assert!(at.multipliers[0].im > 0.0);
+}
+
+#[test]
+fn gait_at_25_degrees() {
+    let g = gait(25.0, [-0.35, -0.2]);
+    println!("{} {:?} {:?}", g.coordinates, g.multipliers, g.map.measures);
+    let square = g.multipliers[0].norm_sqr();
+    approx::assert_abs_diff_eq!(
+        square,
+        (50.0_f64).to_radians().cos() * 0.63 / 0.5,
+        epsilon = 1e-12
+    );
+    approx::assert_abs_diff_eq!(g.map.duration, 1.0 / 6.0, epsilon = 1e-15);
+    let p = parameters(25.0);
+    let two = GaitRequest {
+        period: 2,
+        ..GaitRequest::new(&p, &[0.0])
+    };
+    let twice = find_gait(&M_L, &two, &[-0.35, -0.2]).unwrap().gait.unwrap();
+    approx::assert_abs_diff_eq!(twice.spectral_radius, square, epsilon = 1e-11);
+    approx::assert_abs_diff_eq!(twice.coordinates[0], g.coordinates[0], epsilon = 1e-11);
+    approx::assert_abs_diff_eq!(twice.map.measures[0], g.map.measures[0], epsilon = 1e-11);
+}
+
+#[test]
+fn a_far_guess_still_finds_a_gait() {
+    for guess in [[0.0, 0.0], [-1.0, 1.0], [0.5, -2.0], [3.0, 0.0]] {
+        let g = gait(30.0, guess);
+        assert!(g.spectral_radius.is_finite());
+    }
+}
+
+#[test]
+fn work_stays_small() {
+    let p = parameters(25.0);
+    let r = completed(
+        &M_L,
+        &MapRequest {
+            memory: &[0.0],
+            ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates)
+        },
+    );
+    assert!(
+        r.statistics.steps <= 15 && r.statistics.rejected <= 1 && r.statistics.evaluations <= 292,
+        "{:?}",
+        r.statistics
+    );
+}
