@@ -136,6 +136,9 @@ fn section_without_coordinates() {
     assert_eq!(solution.active.len(), 2);
     problem.vary.iter_mut().for_each(|vary| vary.upper = vary.lower);
     assert_eq!(solved(&problem).status, Status::Optimal);
+    (problem.sense, problem.objective) = (Sense::Minimize, gaitc_runtime::optimize::Objective::SpectralRadius);
+    let solution = solved(&problem);
+    assert_eq!((solution.status, solution.objective), (Status::Optimal, 0.0));
 }
 
 #[test]
@@ -173,7 +176,7 @@ fn a_map_that_stops_in_part_of_the_ranges() {
 fn badly_scaled_parameters() {
     let map = Closed::new(2, 2, 1, |z, p| {
         let center = [p[0] * 1e-3, p[1] * 1e3];
-        let j = vec![vec![Dual::constant(0.3), Dual::constant(2e5)], vec![Dual::constant(-1e-6), Dual::constant(0.2)]];
+        let j = [[Dual::constant(0.3), Dual::constant(2e5)], [Dual::constant(-1e-6), Dual::constant(0.2)]];
         let e = [z[0] - center[0], z[1] - center[1]];
         let next = vec![center[0] + j[0][0] * e[0] + j[0][1] * e[1], center[1] + j[1][0] * e[0] + j[1][1] * e[1]];
         let (a, b) = (z[0] * 1e-6 - 0.4, z[1] - 0.25);
@@ -241,14 +244,25 @@ fn unbounded_objective() {
 
 #[test]
 fn a_gait_that_the_simulation_does_not_confirm_is_not_optimal() {
-    // The Jacobian that this map gives is wrong: it claims to contract, but the map expands.
+    // The Jacobian that this map gives is wrong: it claims to contract, but the map expands from its gait at 0.
     let map = Closed::new(1, 1, 1, |z, p| {
-        let mut next = z[0] * 1.5 - p[0] * 0.5;
-        next.d[0] = 0.5;
+        let mut next = z[0] * 1.5;
+        next.d[0] = 0.5 + 0.0 * p[0].v;
         Some((vec![next], vec![z[0]]))
     });
     let solution = solved(&problem(&map, Sense::Maximize, expression(|_, p| p[0]), &[0.0], &[(0.0, 1.0)]));
-    assert_ne!(solution.status, Status::Optimal);
+    assert_eq!(solution.status, Status::Unconfirmed);
+    assert!(solution.message.contains("the Jacobian differs"), "{}", solution.message);
+    assert!(solution.confirmation.is_none());
+}
+
+/// An expression whose derivatives have the wrong length.
+struct TooShort;
+
+impl gaitc_runtime::optimize::Expression for TooShort {
+    fn evaluate(&self, _: &[f64], _: &[f64]) -> gaitc_runtime::optimize::Value {
+        gaitc_runtime::optimize::Value { value: 0.0, dmeasures: vec![0.0], dparameters: vec![] }
+    }
 }
 
 #[test]
@@ -282,6 +296,34 @@ fn wrong_problems_are_errors() {
     wrong.settings.feasibility = 0.0;
     assert!(matches!(solve(&wrong).unwrap_err(), ProblemError::Setting { setting: "feasibility", .. }));
     let mut wrong = right();
+    wrong.objective = gaitc_runtime::optimize::Objective::Expression(Box::new(TooShort));
+    assert!(matches!(solve(&wrong).unwrap_err(), ProblemError::Length { expected: 2, got: 0, .. }));
+    let mut wrong = right();
     wrong.objective = gaitc_runtime::optimize::Objective::SpectralRadius;
     assert_eq!(solve(&wrong).unwrap_err(), ProblemError::MaximizeSpectralRadius);
+}
+
+#[test]
+fn the_search_begins_elsewhere_when_there_is_no_gait_at_the_start() {
+    let map = Closed::new(1, 1, 1, |z, p| {
+        (p[0].v > 0.5).then(|| (about(z, &[p[0]], &[vec![Dual::constant(0.4)]]), vec![z[0]]))
+    });
+    let objective = expression(|_, p| (p[0] - 0.8) * (p[0] - 0.8));
+    let solution = solved(&problem(&map, Sense::Minimize, objective, &[0.1], &[(0.0, 1.0)]));
+    assert_eq!(solution.status, Status::Optimal);
+    assert_relative_eq!(solution.parameters[0], 0.8, epsilon = 1e-6);
+    assert!(solution.notes.iter().any(|note| note.contains("began elsewhere")), "{:?}", solution.notes);
+}
+
+#[test]
+fn the_edge_of_existence_of_a_gait_is_an_optimum() {
+    // Gaits at +-sqrt(p0) meet in a fold at p0 = 0, where dP/dz - 1 is singular.
+    let map = Closed::new(1, 1, 1, |z, p| Some((vec![z[0] + (p[0] - z[0] * z[0]) * 0.5], vec![z[0]])));
+    let mut problem = problem(&map, Sense::Minimize, expression(|_, p| p[0]), &[0.49], &[(-1.0, 1.0)]);
+    problem.start = vec![0.6];
+    let solution = solved(&problem);
+    println!("{solution:?}");
+    assert_eq!(solution.status, Status::Optimal);
+    assert_relative_eq!(solution.parameters[0], 0.0, epsilon = 1e-8);
+    assert_relative_eq!(solution.spectral_radius, 1.0, epsilon = 1e-4);
 }

@@ -13,7 +13,7 @@ use super::subproblem::{Multipliers, Step, Subproblem};
 use nalgebra::{DMatrix, DVector};
 
 /// What a row of G is.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Active {
     Equality(usize),
     Inequality(usize),
@@ -21,26 +21,41 @@ enum Active {
     High(usize),
 }
 
-/// The exact solution on the active set that `step` suggests, or `None` when that set does not hold up (a wrong guess,
-/// or the ball is what limits the step).
+/// Most corrections of the guessed active set.
+const CORRECTIONS: usize = 20;
+
+/// The exact solution on the active set that `step` suggests, corrected row by row where a multiplier has the wrong sign
+/// or a row left out is violated; `None` when no such set is found, or the ball is what limits the step.
 pub(super) fn refine(problem: &Subproblem<'_>, step: &Step) -> Option<Step> {
-    let n = problem.gradient.len();
-    if n == 0 || step.s.norm() > 0.999 * problem.radius {
+    if problem.gradient.is_empty() || step.s.norm() > 0.999 * problem.radius {
         return None;
     }
-    let (active, violated) = guess(problem, step);
+    let (mut active, violated) = guess(problem, step);
     let gradient = violated.iter().fold(problem.gradient.clone(), |g, v| g + v);
-    let (g, values) = rows(problem, &active);
-    let (s, y) = solve(problem.hessian, &gradient, &g, &values)?;
-    let mut multipliers = Multipliers::zeros(n, problem.h.len(), problem.c.len());
-    // A violated row pulls with the whole penalty.
+    for _ in 0..CORRECTIONS {
+        let (g, values) = rows(problem, &active);
+        let (s, y) = solve(problem.hessian, &gradient, &g, &values)?;
+        let refined = assemble(problem, step, &active, s, &y);
+        if let Some(wrong) = wrong_sign(&refined, &active, &y) {
+            active.swap_remove(wrong);
+        } else if let Some(row) = left_out(problem, &refined, &active) {
+            active.push(row);
+        } else {
+            return holds(problem, &refined, &active).then_some(refined);
+        }
+    }
+    None
+}
+
+/// Step and multipliers on an active set; violated rows keep their pull.
+fn assemble(problem: &Subproblem<'_>, step: &Step, active: &[Active], mut s: DVector<f64>, y: &DVector<f64>) -> Step {
+    let mut multipliers = Multipliers::zeros(s.len(), problem.h.len(), problem.c.len());
     multipliers.equality = step.multipliers.equality.map(|y| penalty_sign(y, problem.penalty));
     for i in 0..problem.c.len() {
         if step.multipliers.inequality[i] > 0.999 * problem.penalty {
             multipliers.inequality[i] = problem.penalty;
         }
     }
-    let mut s = s;
     for (row, &y) in active.iter().zip(y.iter()) {
         match *row {
             Active::Equality(i) => multipliers.equality[i] = y,
@@ -50,8 +65,39 @@ pub(super) fn refine(problem: &Subproblem<'_>, step: &Step) -> Option<Step> {
             Active::High(j) => (multipliers.high[j], s[j]) = (y, problem.upper[j]),
         }
     }
-    let refined = Step { s, multipliers };
-    holds(problem, &refined, &active).then_some(refined)
+    Step { s, multipliers }
+}
+
+/// Rounding that a multiplier's sign is allowed.
+fn sign_slack(m: &Multipliers) -> f64 {
+    1e-9 * (1.0 + m.largest())
+}
+
+/// Rounding that a row's value is allowed.
+fn value_slack(step: &Step) -> f64 {
+    1e-12 + 1e-9 * step.s.norm()
+}
+
+/// Position of the active inequality or bound with the most negative multiplier, if any is negative.
+fn wrong_sign(step: &Step, active: &[Active], y: &DVector<f64>) -> Option<usize> {
+    let slack = sign_slack(&step.multipliers);
+    let signed = active.iter().zip(y.iter()).enumerate().filter(|(_, (row, _))| !matches!(row, Active::Equality(_)));
+    let worst = signed.map(|(k, (_, &y))| (k, y)).min_by(|a, b| a.1.total_cmp(&b.1));
+    worst.filter(|(_, y)| *y < -slack).map(|(k, _)| k)
+}
+
+/// The inequality or bound left out that is violated most, if any is.
+fn left_out(problem: &Subproblem<'_>, step: &Step, active: &[Active]) -> Option<Active> {
+    let c = problem.inequality * &step.s + &problem.c;
+    let is_active = |wanted: Active| active.contains(&wanted);
+    let rows = (0..c.len())
+        .filter(|&i| step.multipliers.inequality[i] < problem.penalty)
+        .map(|i| (Active::Inequality(i), c[i]));
+    let low = (0..step.s.len()).map(|j| (Active::Low(j), step.s[j] - problem.lower[j]));
+    let high = (0..step.s.len()).map(|j| (Active::High(j), problem.upper[j] - step.s[j]));
+    let all = rows.chain(low).chain(high).filter(|(row, _)| !is_active(*row));
+    let worst = all.min_by(|a, b| a.1.total_cmp(&b.1));
+    worst.filter(|(_, value)| *value < -value_slack(step)).map(|(row, _)| row)
 }
 
 fn penalty_sign(y: f64, penalty: f64) -> f64 {
@@ -146,9 +192,9 @@ fn solve(
 
 /// Whether the refined step satisfies what was left out and its multipliers have the right signs.
 fn holds(problem: &Subproblem<'_>, step: &Step, active: &[Active]) -> bool {
-    let slack = 1e-12 + 1e-9 * step.s.norm();
+    let slack = value_slack(step);
     let m = &step.multipliers;
-    let sign = -1e-9 * (1.0 + m.largest());
+    let sign = -sign_slack(m);
     let c = problem.inequality * &step.s + &problem.c;
     let inside =
         (0..step.s.len()).all(|j| step.s[j] >= problem.lower[j] - slack && step.s[j] <= problem.upper[j] + slack);

@@ -38,13 +38,18 @@ pub(super) fn confirm(problem: &Problem<'_>, claim: &Claim<'_>) -> Result<Confir
         measures: measures_differ(claim.map, &fresh),
         ..Confirmation::default()
     };
-    check(found.residual, 1e-8, "the gait does not return to itself")?;
-    check(found.measures, 1e-6, "a measure differs")?;
+    let relative = problem.settings.accuracy.relative;
+    check(found.residual, f64::max(1e-8, 1e3 * relative), "the gait does not return to itself")?;
+    check(found.measures, f64::max(1e-6, 1e4 * relative), "a measure differs")?;
     let jacobian = claim.map.jacobian.columns(0, z.len()).into_owned();
     let direction = disturbance(&sizes);
     let (plus, minus) = (run(&(&z + &direction), false)?, run(&(&z - &direction), false)?);
     found.linearisation = linearisation_differs(&jacobian, &direction, &plus, &minus, &sizes);
-    check(found.linearisation, 1e-3, "the Jacobian differs from a difference of maps")?;
+    check(
+        found.linearisation,
+        f64::max(1e-3, 10.0 * relative / DISTURBANCE),
+        "the Jacobian differs from a difference of maps",
+    )?;
     if claim.spectral_radius < 1.0 && !z.is_empty() {
         (found.maps, found.remaining) = follow(claim, &z, &jacobian, &direction, &sizes, |z| run(z, false))?;
     }
@@ -76,7 +81,8 @@ fn measures_differ(claimed: &MapResult, fresh: &MapResult) -> f64 {
 
 /// A fixed direction with a part along every coordinate, no two alike.
 fn disturbance(sizes: &DVector<f64>) -> DVector<f64> {
-    let shape = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 } / (1.0 + 0.37 * i as f64);
+    let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let shape = |i: usize| sign(i) / (1.0 + 0.37 * i as f64);
     DVector::from_fn(sizes.len(), |i, _| DISTURBANCE * sizes[i] * shape(i))
 }
 

@@ -50,7 +50,7 @@ pub(super) fn rows(polynomial: &[f64], radius: f64) -> Vec<Row> {
 /// The inequalities in terms of c_0 to c_n: value and gradient.
 fn forms(c: &[f64]) -> Vec<(f64, Vec<f64>)> {
     let n = c.len() - 1;
-    let mut forms = vec![linear(c, |_| 1.0), linear(c, |k| if (n - k) % 2 == 0 { 1.0 } else { -1.0 })];
+    let mut forms = vec![linear(c, |_| 1.0), linear(c, |k| if (n - k).is_multiple_of(2) { 1.0 } else { -1.0 })];
     let mut size = n - 1;
     while size > 0 {
         forms.push(inner(c, size, -1.0));
@@ -97,7 +97,7 @@ fn cofactors(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let n = matrix.nrows();
     DMatrix::from_fn(n, n, |i, j| {
         let minor = matrix.clone().remove_row(i).remove_column(j).determinant();
-        if (i + j) % 2 == 0 { minor } else { -minor }
+        if (i + j).is_multiple_of(2) { minor } else { -minor }
     })
 }
 

@@ -40,9 +40,9 @@ impl Program<'_> {
                 Row::Jury(..) => {}
             }
         }
-        let f = self.objective_gradient(point)?;
-        if f.iter().chain(c.iter()).all(|x| x.is_finite()) {
-            Ok(Linearisation { f, h: self.periodicity_jacobian(point), c, radius })
+        let (f, h) = (self.objective_gradient(point)?, self.periodicity_jacobian(point));
+        if f.iter().chain(h.iter()).chain(c.iter()).all(|x| x.is_finite()) {
+            Ok(Linearisation { f, h, c, radius })
         } else {
             Err(Failure::NotFinite("a derivative".to_owned()))
         }

@@ -4,7 +4,7 @@ use super::gait::NoGait;
 use super::problem::Problem;
 use super::program::{Point, Program, Row};
 use super::solution::{ActiveKind, Kink, Solution, Status};
-use crate::return_map::{Stop, StopReason};
+use crate::return_map::{Stop, StopReason, Warning};
 use std::fmt;
 
 /// The message of a verdict; `detail` names what is violated, disagrees, or what Clarabel said.
@@ -64,7 +64,7 @@ pub(super) fn no_gait(detail: &str) -> String {
 
 /// Which constraints do not hold at a point, and by how much relative to their scale; empty when all hold.
 pub(super) fn violations(program: &Program<'_>, point: &Point) -> String {
-    let tolerance = 10.0 * program.problem.settings.feasibility;
+    let tolerance = 10.0 * program.problem.settings.attainable_feasibility();
     let mut worst: Vec<(String, f64)> = Vec::new();
     let mut add = |name: String, value: f64| match worst.iter_mut().find(|(known, _)| *known == name) {
         Some((_, known)) => *known = known.max(value),
@@ -95,12 +95,29 @@ pub(super) fn kink(kink: &Kink) -> String {
     )
 }
 
+/// A warning of the return map at the optimum.
+pub(super) fn warning(problem: &Problem<'_>, warning: &Warning) -> String {
+    let transitions = problem.map.info().transitions;
+    let name = |index: usize| transitions.get(index).map_or("?", |transition| transition.name);
+    match *warning {
+        Warning::Grazing { transition, time, .. } => format!(
+            "the guard of `{}` is only touched at {time:.6} s: derivatives and stability are not valid there",
+            name(transition)
+        ),
+        Warning::Tie { taken, other, time } => format!(
+            "`{}` and `{}` fire together at {time:.6} s; the first was taken, and derivatives hold for that order only",
+            name(taken),
+            name(other)
+        ),
+    }
+}
+
 impl fmt::Display for NoGait {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Stopped(stop) => write!(f, "{}", stop_text(stop)),
             Self::NotConverged(residual) => {
-                write!(f, "Newton's method stops where one map moves the start by {residual:.1e} of its size")
+                write!(f, "Newton's method ends where a map still moves the start by {residual:.1e}")
             }
             Self::Wrong(error) => write!(f, "{error}"),
         }

@@ -18,7 +18,6 @@
 mod active_set;
 mod characteristic;
 mod confirm;
-mod eigenvalues;
 mod gait;
 mod jacobian_derivative;
 mod jury;
@@ -61,41 +60,38 @@ pub fn solve(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
             return Ok(solution);
         }
     };
-    let mut best: Option<Verdict> = None;
-    let mut starts = Starts::default();
-    for number in 0..problem.settings.starts {
-        let Some(verdict) = run(problem, &first, number)? else { continue };
-        starts.run += 1;
-        starts.converged += usize::from(verdict.solution.status == Status::Optimal);
-        if best.as_ref().is_none_or(|best| better(problem, &verdict, best)) {
-            best = Some(verdict);
+    let mut best = run(problem, &first, 0)?;
+    let mut converged = usize::from(best.solution.status == Status::Optimal);
+    for number in 1..problem.settings.starts {
+        let verdict = run(problem, &first, number)?;
+        converged += usize::from(verdict.solution.status == Status::Optimal);
+        if better(problem, &verdict, &best) {
+            best = verdict;
         }
     }
-    let mut solution = match best {
-        Some(best) => best.solution,
-        None => verdict::no_gait(problem, parameters.clone(), &NoGait::NotConverged(f64::NAN)).solution,
-    };
-    solution.starts = starts;
+    let mut solution = best.solution;
+    solution.starts = Starts { run: problem.settings.starts, converged };
     solution.notes.extend(start_notes(problem, &moved, first.parameters != parameters));
     Ok(solution)
 }
 
-/// One start, a pure function of its number; `None` when no gait could be followed there.
-fn run(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Option<Verdict>, ProblemError> {
-    let followed = if number == 0 { None } else { starts::further(problem, first, number)? };
-    let start = match (&followed, number) {
-        (Some(start), _) => start,
-        (None, 0) => first,
-        (None, _) => return Ok(None),
+/// One start, a pure function of its number.
+fn run(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Verdict, ProblemError> {
+    let further = match number {
+        0 => Ok(first.clone()),
+        _ => starts::further(problem, first, number),
     };
-    match local(problem, start) {
-        Ok(verdict) => Ok(Some(verdict)),
+    let start = match further {
+        Ok(start) => start,
+        Err(NoGait::Wrong(error)) => return Err(error),
+        Err(failure) => return Ok(verdict::no_gait(problem, first.parameters.clone(), &failure)),
+    };
+    match local(problem, &start) {
+        Ok(verdict) => Ok(verdict),
         Err(Failure::Wrong(error)) => Err(error),
-        Err(Failure::Stopped(stop)) => {
-            Ok(Some(verdict::no_gait(problem, start.parameters.clone(), &NoGait::Stopped(stop))))
-        }
-        Err(Failure::NotFinite(what)) => Ok(Some(verdict::undefined(start, &what))),
-        Err(Failure::NoDerivative) => Ok(Some(verdict::undefined(start, "the derivative of the Jacobian"))),
+        Err(Failure::Stopped(stop)) => Ok(verdict::no_gait(problem, start.parameters, &NoGait::Stopped(stop))),
+        Err(Failure::NotFinite(what)) => Ok(verdict::undefined(&start, &what)),
+        Err(Failure::NoDerivative) => Ok(verdict::undefined(&start, "the derivative of the Jacobian")),
     }
 }
 

@@ -90,7 +90,8 @@ pub struct Settings {
     pub accuracy: Accuracy,
     /// Largest KKT residual of an optimum, relative to the size of the objective's gradient over the ranges.
     pub optimality: f64,
-    /// Largest violation of a constraint, relative to its natural scale.
+    /// Largest violation of a constraint, relative to its natural scale; ten times the maps' relative tolerance if
+    /// that is more.
     pub feasibility: f64,
     /// Most iterations of one start.
     pub max_iterations: usize,
@@ -288,6 +289,11 @@ impl Constraint {
 }
 
 impl Settings {
+    /// Feasibility that can be asked of maps of this accuracy.
+    pub(super) fn attainable_feasibility(&self) -> f64 {
+        self.feasibility.max(10.0 * self.accuracy.relative)
+    }
+
     /// Checks the settings.
     ///
     /// # Errors
@@ -299,7 +305,7 @@ impl Settings {
             ("feasibility", tolerance(self.feasibility), "must lie between 0 and 1, such as 1e-10"),
             ("trust_radius", tolerance(self.trust_radius), "must lie between 0 and 1, such as 0.25"),
             ("max_iterations", self.max_iterations > 0, "must be at least 1"),
-            ("starts", self.starts > 0, "must be at least 1"),
+            ("starts", (1..=100_000).contains(&self.starts), "must be between 1 and 100000"),
         ];
         match rules.into_iter().find(|(_, holds, _)| !holds) {
             Some((setting, _, hint)) => Err(ProblemError::Setting { setting, hint }),

@@ -4,10 +4,10 @@
 //! all first derivatives except those of the Jacobian's entries (module `jacobian_derivative`).
 
 use super::characteristic::Characteristic;
-use super::eigenvalues::spectral_radius;
 use super::jury;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 use super::variables::Variables;
+use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
 
@@ -85,7 +85,8 @@ impl<'a> Program<'a> {
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
         if matches!(problem.objective, Objective::SpectralRadius) {
             let d = section.len();
-            program.variables.epigraph = Some(spectral_radius(&map.jacobian.columns(0, d).into_owned()).max(1e-3));
+            program.variables.epigraph =
+                Some(spectral_radius(&multipliers(&map.jacobian.columns(0, d).into_owned())).max(1e-3));
         }
         program.set_references(parameters, &map)?;
         program.set_objective_scale(parameters, section)?;

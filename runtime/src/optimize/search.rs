@@ -24,6 +24,9 @@ const SMALLEST_RADIUS: f64 = 1e-13;
 const UNBOUNDED: f64 = -1e7;
 /// A search that cannot go on is still an optimum when its residuals are within these.
 const ACCEPTABLE: Kkt = Kkt { optimality: 1e-5, feasibility: 1e-9 };
+/// The same, in multiples of the maps' relative tolerance, for maps of low accuracy: derivatives of the Jacobian lose
+/// most of its digits.
+const ACCEPTABLE_MULTIPLE: Kkt = Kkt { optimality: 1e4, feasibility: 100.0 };
 
 /// Why a search ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +66,7 @@ struct Search<'p, 'a> {
     radius: f64,
     /// Inequalities are driven to this instead of 0, so that rounding does not leave them violated.
     margin: f64,
-    /// Steps left to bring inequalities that hold to the tolerance to hold strictly.
+    /// Steps left beyond the tolerance: they cost little, make constraints hold strictly and gain digits.
     spare: usize,
 }
 
@@ -87,7 +90,7 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         model: QuasiNewton::new(program.len()),
         penalty: 1.0,
         radius: settings.trust_radius,
-        margin: 0.5 * settings.feasibility,
+        margin: 0.5 * settings.attainable_feasibility(),
         spare: 3,
     };
     let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
@@ -110,8 +113,18 @@ impl Search<'_, '_> {
     /// `otherwise`, unless the point is good enough all the same.
     fn verdict(&self, multipliers: &Multipliers, otherwise: End) -> End {
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
-        let good = kkt.optimality <= ACCEPTABLE.optimality && kkt.feasibility <= ACCEPTABLE.feasibility;
+        if self.within_tolerance(kkt) {
+            return End::Converged;
+        }
+        let relative = self.program.problem.settings.accuracy.relative;
+        let good = kkt.optimality <= ACCEPTABLE.optimality.max(ACCEPTABLE_MULTIPLE.optimality * relative)
+            && kkt.feasibility <= ACCEPTABLE.feasibility.max(ACCEPTABLE_MULTIPLE.feasibility * relative);
         if good { End::Acceptable } else { otherwise }
+    }
+
+    fn within_tolerance(&self, kkt: Kkt) -> bool {
+        let settings = &self.program.problem.settings;
+        kkt.optimality <= settings.optimality && kkt.feasibility <= settings.attainable_feasibility()
     }
 
     fn iterate(&mut self, multipliers: &mut Multipliers) -> Result<Progress, ProblemError> {
@@ -130,9 +143,9 @@ impl Search<'_, '_> {
         };
         *multipliers = step.multipliers.clone();
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
-        if kkt.optimality <= settings.optimality && kkt.feasibility <= settings.feasibility {
-            // Within the tolerance; a few more steps usually bring the constraints to hold strictly.
-            if self.spare == 0 || self.point.c.iter().all(|c| *c >= 0.0) {
+        if self.within_tolerance(kkt) {
+            let strictly = self.point.c.iter().all(|c| *c >= 0.0) && kkt.optimality <= 1e-3 * settings.optimality;
+            if self.spare == 0 || strictly {
                 return Ok(Progress::Ended(End::Converged));
             }
             self.spare -= 1;
@@ -140,7 +153,7 @@ impl Search<'_, '_> {
         let problem = self.subproblem(&lower, &upper);
         let promised =
             self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
-        if promised <= 1e-15 * (1.0 + self.point.f.abs()) {
+        if promised < 0.0 || step.s.norm() < SMALLEST_RADIUS {
             return Ok(Progress::Ended(End::Stalled));
         }
         self.advance(&step, promised, &lower, &upper)?;
@@ -182,7 +195,7 @@ impl Search<'_, '_> {
     /// A step, with the penalty raised until it reduces the violation nearly as much as any step could; `None` when
     /// constraints are violated and no step reduces that.
     fn steered(&mut self, lower: &[f64], upper: &[f64]) -> Result<Option<Step>, Unsolved> {
-        let tolerance = self.program.problem.settings.feasibility;
+        let tolerance = self.program.problem.settings.attainable_feasibility();
         // What an interior-point step leaves violated by its own tolerance is no reason to steer.
         let nothing = f64::max(tolerance, INTERIOR_POINT * self.radius);
         let mut step = solve(&self.subproblem(lower, upper))?;
@@ -258,7 +271,8 @@ impl Search<'_, '_> {
 
     /// Reduction of the merit over what was promised; both are allowed the rounding of the maps.
     fn ratio(&self, trial: Option<&Point>, promised: f64) -> f64 {
-        let rounding = 1e-13 * (1.0 + self.point.f.abs() + self.penalty);
+        let error = f64::max(1e-13, 0.1 * self.program.problem.settings.accuracy.relative);
+        let rounding = error * (1.0 + self.point.f.abs() + self.penalty);
         match trial {
             Some(point) => (self.merit(&self.point) - self.merit(point) + rounding) / (promised + rounding),
             None => f64::NEG_INFINITY,

@@ -4,7 +4,7 @@
 //! number of the start.
 
 use super::gait::{self, NoGait};
-use super::problem::{Problem, ProblemError};
+use super::problem::Problem;
 
 /// How many other parameter sets are tried when there is no gait at the given ones.
 const RESCUES: usize = 32;
@@ -38,36 +38,33 @@ pub(super) fn projected(problem: &Problem<'_>) -> (Vec<f64>, Vec<usize>) {
 /// # Errors
 /// The failure at the projected parameters.
 pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, NoGait> {
-    let failure = match gait::newton(problem, parameters, &problem.start) {
+    let failure = match gait::near(problem, parameters, &problem.start) {
         Ok(section) => return Ok(Start { parameters: parameters.to_vec(), section }),
         Err(NoGait::Wrong(error)) => return Err(NoGait::Wrong(error)),
         Err(failure) => failure,
     };
     if parameters != problem.parameters
-        && let Ok(section) = gait::newton(problem, &problem.parameters, &problem.start)
+        && let Ok(section) = gait::near(problem, &problem.parameters, &problem.start)
         && let Ok(section) = gait::follow(problem, (&problem.parameters, &section), parameters)
     {
         return Ok(Start { parameters: parameters.to_vec(), section });
     }
     let found = (1..=RESCUES).find_map(|number| {
         let parameters = spread(problem, parameters, number);
-        let section = gait::newton(problem, &parameters, &problem.start).ok()?;
+        let section = gait::near(problem, &parameters, &problem.start).ok()?;
         Some(Start { parameters, section })
     });
     found.ok_or(failure)
 }
 
-/// Start number `number` (from 1), followed from the first; `None` when no gait can be followed there.
+/// Start number `number` (from 1), followed from the first.
 ///
 /// # Errors
-/// Only for a problem that turns out to be wrong as stated.
-pub(super) fn further(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Option<Start>, ProblemError> {
+/// When no gait can be followed there.
+pub(super) fn further(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Start, NoGait> {
     let parameters = spread(problem, &first.parameters, number);
-    match gait::follow(problem, (&first.parameters, &first.section), &parameters) {
-        Ok(section) => Ok(Some(Start { parameters, section })),
-        Err(NoGait::Wrong(error)) => Err(error),
-        Err(_) => Ok(None),
-    }
+    let section = gait::follow(problem, (&first.parameters, &first.section), &parameters)?;
+    Ok(Start { parameters, section })
 }
 
 /// Parameters number `number` (from 1) of the sequence in the ranges.
@@ -96,7 +93,7 @@ fn radical_inverse(mut number: usize, base: usize) -> f64 {
 
 /// Prime number `index` (from 0): 2, 3, 5, ...
 fn prime(index: usize) -> usize {
-    let is_prime = |n: &usize| (2..*n).take_while(|k| k * k <= *n).all(|k| n % k != 0);
+    let is_prime = |n: &usize| (2..*n).take_while(|k| k * k <= *n).all(|k| !n.is_multiple_of(k));
     (2..).filter(is_prime).nth(index).unwrap_or(2)
 }
 

@@ -1,7 +1,6 @@
 //! From the end of a search to the verdict: polished gait, confirmation, active constraints with shadow prices, kink.
 
 use super::confirm::{self, Claim};
-use super::eigenvalues::eigenvalues;
 use super::gait::{self, NoGait};
 use super::kkt::{infeasibility, kkt};
 use super::message;
@@ -10,6 +9,7 @@ use super::program::{Failure, Point, Program, Row};
 use super::search::{End, Ended};
 use super::solution::{Active, ActiveKind, Kink, Solution, Starts, Status};
 use super::starts::Start;
+use crate::orbit;
 use nalgebra::{Complex, DVector};
 
 /// Scaled multiplier below which a constraint does not limit anything.
@@ -34,8 +34,8 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
     polish(program, &mut ended)?;
     let point = &ended.point;
     let d = point.section.len();
-    let multipliers = eigenvalues(&point.map.jacobian.columns(0, d).into_owned());
-    let spectral_radius = multipliers.first().map_or(0.0, |m| m.norm());
+    let multipliers = orbit::multipliers(&point.map.jacobian.columns(0, d).into_owned());
+    let spectral_radius = orbit::spectral_radius(&multipliers);
     let residuals = kkt(program, point, &ended.lin, &ended.multipliers);
     let mut solution = Solution {
         status: Status::Stalled,
@@ -63,7 +63,7 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
 
 /// Newton on the gait at the final parameters; the point and its derivatives follow.
 fn polish(program: &Program<'_>, ended: &mut Ended) -> Result<(), ProblemError> {
-    let section = match gait::newton(program.problem, &ended.point.parameters, &ended.point.section) {
+    let section = match gait::near(program.problem, &ended.point.parameters, &ended.point.section) {
         Ok(section) => section,
         Err(NoGait::Wrong(error)) => return Err(error),
         // Away from any gait: the verdict then stands on the unpolished point.
@@ -123,6 +123,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     if let Some(kink) = &solution.kink {
         solution.notes.push(message::kink(kink));
     }
+    solution.notes.extend(ended.point.map.warnings.iter().map(|warning| message::warning(problem, warning)));
     solution.message = message::message(problem, solution, &detail);
 }
 
@@ -178,7 +179,9 @@ fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
         let multiplier = f64::max(0.0, price * scale);
         priced.push((scaled, Active { kind: ActiveKind::Constraint(i), multiplier }));
     }
-    priced.retain(|(scaled, _)| *scaled > NEGLIGIBLE);
+    // What is below the residual of the conditions themselves says nothing.
+    let residual = kkt(program, &ended.point, &ended.lin, m).optimality;
+    priced.retain(|(scaled, _)| *scaled > NEGLIGIBLE.max(10.0 * residual));
     priced.sort_by(|a, b| b.0.total_cmp(&a.0));
     priced.into_iter().map(|(_, active)| active).collect()
 }

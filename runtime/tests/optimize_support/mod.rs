@@ -1,6 +1,7 @@
 //! Closed-form return maps and expressions for the optimizer's tests, differentiated by dual numbers.
 #![allow(unreachable_pub)] // shared by test files
 #![allow(dead_code)] // every test file uses its own part
+#![allow(clippy::print_stdout)] // shown for failing tests only
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failing test should say where
 
 use gaitc_runtime::model::{ModelInfo, Quantity};
@@ -14,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Room for derivatives: coordinates, parameters, measures.
-const ROOM: usize = 12;
+const ROOM: usize = 16;
 
 /// A number with derivatives.
 #[derive(Clone, Copy, Debug)]
