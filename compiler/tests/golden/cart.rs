@@ -4,6 +4,12 @@
 #![allow(non_snake_case, reason = "names of the spec appear as they are written there")]
 #![allow(clippy::let_and_return, reason = "straight-line code names every value")]
 #![allow(
+    clippy::len_zero,
+    clippy::match_single_binding,
+    clippy::zero_repeat_side_effects,
+    reason = "a size or a list of cases is printed in the same way where it is empty"
+)]
+#![allow(
     clippy::approx_constant,
     reason = "constants are printed exactly as CasADi computed them"
 )]

@@ -4,6 +4,12 @@
 #![allow(non_snake_case, reason = "names of the spec appear as they are written there")]
 #![allow(clippy::let_and_return, reason = "straight-line code names every value")]
 #![allow(
+    clippy::len_zero,
+    clippy::match_single_binding,
+    clippy::zero_repeat_side_effects,
+    reason = "a size or a list of cases is printed in the same way where it is empty"
+)]
+#![allow(
     clippy::approx_constant,
     reason = "constants are printed exactly as CasADi computed them"
 )]
@@ -24,7 +30,7 @@ pub struct EveryOperation;
 /// Names, units and structure.
 static INFO: model::ModelInfo = model::ModelInfo {
     name: "every_operation",
-    fingerprint: "8fa2fc2c486f276708c134d6fb040307f2c19e0d402864774c8a61e07c6ea480",
+    fingerprint: "5d18f068d41c7f65b2db8890ec26c46d103d26e7d4f7bafe65e6588c6d23bab4",
     parameters: &[
         model::Quantity {
             name: "a",
@@ -478,7 +484,7 @@ fn flow_first<S: scalar::Scalar>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::select(b1, x_Y, x_x);
+    let v69 = S::select(b1, x_x, x_Y);
     let v70 = S::select(b2, x_x, p_a);
     let v71 = v69 + v70;
     let v72 = S::select(b3, v68, v71);
@@ -571,7 +577,7 @@ fn integrated_first<S: scalar::Scalar>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::select(b1, x_Y, x_x);
+    let v69 = S::select(b1, x_x, x_Y);
     let v70 = S::select(b2, x_x, p_a);
     let v71 = v69 + v70;
     let v72 = S::select(b3, v68, v71);
@@ -668,7 +674,7 @@ fn residual_first<S: scalar::Scalar>(
     let v68 = S::select(b0, v67, v53);
     let v69 = x_x * x_Y;
     let v70 = S::select(b0, v69, v0);
-    let v71 = S::select(b1, x_Y, x_x);
+    let v71 = S::select(b1, x_x, x_Y);
     let v72 = S::select(b2, x_x, p_a);
     let v73 = v71 + v72;
     let v74 = S::select(b3, v70, v73);
@@ -843,7 +849,7 @@ fn reset_go<S: scalar::Scalar>(
     let v2 = x_x * x_Y;
     let v3 = x_x.sin();
     let v4 = S::select(b0, v2, v3);
-    let v5 = S::select(b1, x_Y, x_x);
+    let v5 = S::select(b1, x_x, x_Y);
     let v6 = S::select(b2, x_x, p_a);
     let v7 = v5 + v6;
     let v8 = S::select(b3, v4, v7);
@@ -898,7 +904,7 @@ fn embed<S: scalar::Scalar>(z: &[S], p: &[S; PARAMETERS]) -> [S; STATES] {
     let v1 = p_a * v0;
     let v2 = p_b - x_x;
     let v3 = S::constant(0.0).less_equal(v2);
-    let v4 = S::select(v3, x_x, p_b);
+    let v4 = S::select(v3, p_b, x_x);
     let v5 = x_self * v4;
     let v6 = v1 + v5;
     [x_x, v6, x_self]
@@ -1125,7 +1131,7 @@ fn d_flow_first<S: scalar::Scalar>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::select(b1, x_Y, x_x);
+    let v69 = S::select(b1, x_x, x_Y);
     let v70 = S::select(b2, x_x, p_a);
     let v71 = v69 + v70;
     let v72 = S::select(b3, v68, v71);
@@ -1209,7 +1215,7 @@ fn d_flow_first<S: scalar::Scalar>(
     let v150 = -v109;
     let v151 = S::select(b0, v149, v150);
     let v152 = S::select(b0, x_Y, v77);
-    let v153 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v153 = S::select(b1, S::constant(1.0), S::constant(0.0));
     let v154 = S::select(b2, S::constant(1.0), S::constant(0.0));
     let v155 = v153 + v154;
     let v156 = S::select(b3, v152, v155);
@@ -1229,7 +1235,7 @@ fn d_flow_first<S: scalar::Scalar>(
     let v170 = v168 + v169;
     let v171 = v160 - v170;
     let v172 = S::select(b0, x_x, S::constant(0.0));
-    let v173 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v173 = S::select(b1, S::constant(0.0), S::constant(1.0));
     let v174 = S::select(b3, v172, v173);
     let v175 = v23 * v23;
     let v176 = S::constant(1.0) - v175;
@@ -1367,7 +1373,7 @@ fn d_residual_first<S: scalar::Scalar>(
     let v68 = S::select(b0, v67, v53);
     let v69 = x_x * x_Y;
     let v70 = S::select(b0, v69, v0);
-    let v71 = S::select(b1, x_Y, x_x);
+    let v71 = S::select(b1, x_x, x_Y);
     let v72 = S::select(b2, x_x, p_a);
     let v73 = v71 + v72;
     let v74 = S::select(b3, v70, v73);
@@ -1454,7 +1460,7 @@ fn d_residual_first<S: scalar::Scalar>(
     let v155 = -v112;
     let v156 = S::select(b0, v154, v155);
     let v157 = S::select(b0, x_Y, v80);
-    let v158 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v158 = S::select(b1, S::constant(1.0), S::constant(0.0));
     let v159 = S::select(b2, S::constant(1.0), S::constant(0.0));
     let v160 = v158 + v159;
     let v161 = S::select(b3, v157, v160);
@@ -1476,7 +1482,7 @@ fn d_residual_first<S: scalar::Scalar>(
     let v177 = v166 - v176;
     let v178 = -v177;
     let v179 = S::select(b0, x_x, S::constant(0.0));
-    let v180 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v180 = S::select(b1, S::constant(0.0), S::constant(1.0));
     let v181 = S::select(b3, v179, v180);
     let v182 = -v181;
     let v183 = v23 * v23;
@@ -1752,7 +1758,7 @@ fn d_reset_go<S: scalar::Scalar>(
     let v2 = x_x * x_Y;
     let v3 = x_x.sin();
     let v4 = S::select(b0, v2, v3);
-    let v5 = S::select(b1, x_Y, x_x);
+    let v5 = S::select(b1, x_x, x_Y);
     let v6 = S::select(b2, x_x, p_a);
     let v7 = v5 + v6;
     let v8 = S::select(b3, v4, v7);
@@ -1760,12 +1766,12 @@ fn d_reset_go<S: scalar::Scalar>(
     let v10 = v9 * p_type;
     let v11 = x_x.cos();
     let v12 = S::select(b0, x_Y, v11);
-    let v13 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v13 = S::select(b1, S::constant(1.0), S::constant(0.0));
     let v14 = S::select(b2, S::constant(1.0), S::constant(0.0));
     let v15 = v13 + v14;
     let v16 = S::select(b3, v12, v15);
     let v17 = S::select(b0, x_x, S::constant(0.0));
-    let v18 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v18 = S::select(b1, S::constant(0.0), S::constant(1.0));
     let v19 = S::select(b3, v17, v18);
     let v20 = S::select(b2, S::constant(0.0), S::constant(1.0));
     let v21 = S::select(b3, S::constant(0.0), v20);
@@ -1850,12 +1856,12 @@ fn d_embed<S: scalar::Scalar>(
     let v0 = x_x * x_x;
     let v1 = p_b - x_x;
     let v2 = S::constant(0.0).less_equal(v1);
-    let v3 = S::select(v2, x_x, p_b);
+    let v3 = S::select(v2, p_b, x_x);
     let v4 = x_x + x_x;
     let v5 = p_a * v4;
-    let v6 = S::select(v2, x_self, S::constant(0.0));
+    let v6 = S::select(v2, S::constant(0.0), x_self);
     let v7 = v5 + v6;
-    let v8 = S::select(v2, S::constant(0.0), x_self);
+    let v8 = S::select(v2, x_self, S::constant(0.0));
     (
         [
             [S::constant(0.0), v3, S::constant(1.0)],
@@ -2286,7 +2292,7 @@ fn tangent_flow_first<S: scalar::Scalar, const C: usize>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::select(b1, x_Y, x_x);
+    let v69 = S::select(b1, x_x, x_Y);
     let v70 = S::select(b2, x_x, p_a);
     let v71 = v69 + v70;
     let v72 = S::select(b3, v68, v71);
@@ -2370,7 +2376,7 @@ fn tangent_flow_first<S: scalar::Scalar, const C: usize>(
     let v150 = -v109;
     let v151 = S::select(b0, v149, v150);
     let v152 = S::select(b0, x_Y, v77);
-    let v153 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v153 = S::select(b1, S::constant(1.0), S::constant(0.0));
     let v154 = S::select(b2, S::constant(1.0), S::constant(0.0));
     let v155 = v153 + v154;
     let v156 = S::select(b3, v152, v155);
@@ -2390,7 +2396,7 @@ fn tangent_flow_first<S: scalar::Scalar, const C: usize>(
     let v170 = v168 + v169;
     let v171 = v160 - v170;
     let v172 = S::select(b0, x_x, S::constant(0.0));
-    let v173 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v173 = S::select(b1, S::constant(0.0), S::constant(1.0));
     let v174 = S::select(b3, v172, v173);
     let v175 = v23 * v23;
     let v176 = S::constant(1.0) - v175;
@@ -2507,7 +2513,7 @@ fn tangent_integrated_first<S: scalar::Scalar, const C: usize>(
     let v66 = S::select(b0, v65, v52);
     let v67 = x_x * x_Y;
     let v68 = S::select(b0, v67, v0);
-    let v69 = S::select(b1, x_Y, x_x);
+    let v69 = S::select(b1, x_x, x_Y);
     let v70 = S::select(b2, x_x, p_a);
     let v71 = v69 + v70;
     let v72 = S::select(b3, v68, v71);
@@ -2591,7 +2597,7 @@ fn tangent_integrated_first<S: scalar::Scalar, const C: usize>(
     let v150 = -v109;
     let v151 = S::select(b0, v149, v150);
     let v152 = S::select(b0, x_Y, v77);
-    let v153 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v153 = S::select(b1, S::constant(1.0), S::constant(0.0));
     let v154 = S::select(b2, S::constant(1.0), S::constant(0.0));
     let v155 = v153 + v154;
     let v156 = S::select(b3, v152, v155);
@@ -2611,7 +2617,7 @@ fn tangent_integrated_first<S: scalar::Scalar, const C: usize>(
     let v170 = v168 + v169;
     let v171 = v160 - v170;
     let v172 = S::select(b0, x_x, S::constant(0.0));
-    let v173 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v173 = S::select(b1, S::constant(0.0), S::constant(1.0));
     let v174 = S::select(b3, v172, v173);
     let v175 = v23 * v23;
     let v176 = S::constant(1.0) - v175;

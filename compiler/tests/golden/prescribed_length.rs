@@ -4,6 +4,12 @@
 #![allow(non_snake_case, reason = "names of the spec appear as they are written there")]
 #![allow(clippy::let_and_return, reason = "straight-line code names every value")]
 #![allow(
+    clippy::len_zero,
+    clippy::match_single_binding,
+    clippy::zero_repeat_side_effects,
+    reason = "a size or a list of cases is printed in the same way where it is empty"
+)]
+#![allow(
     clippy::approx_constant,
     reason = "constants are printed exactly as CasADi computed them"
 )]
@@ -24,7 +30,7 @@ pub struct PrescribedLength;
 /// Names, units and structure.
 static INFO: model::ModelInfo = model::ModelInfo {
     name: "prescribed_length",
-    fingerprint: "17f14b0dacafb2073a2dabfa1e7721a26e8e935bdd83dd9ce96e036974560016",
+    fingerprint: "2cd771d0aea87d635135942e9063e9e68578c929d342cd888a5c0bf48824c0ac",
     parameters: &[
         model::Quantity {
             name: "l_s",
@@ -470,7 +476,7 @@ fn integrated_stance<S: scalar::Scalar>(
     let v43 = v39 + v42;
     let v44 = v43 * v12;
     let v45 = S::select(b0, v44, S::constant(0.0));
-    let v46 = S::select(b3, S::constant(0.0), v45);
+    let v46 = S::select(b3, v45, S::constant(0.0));
     ([v7, v18], [v24, v31, v46])
 }
 
@@ -1704,7 +1710,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v43 = v39 + v42;
     let v44 = v43 * v12;
     let v45 = S::select(b0, v44, S::constant(0.0));
-    let v46 = S::select(b3, S::constant(0.0), v45);
+    let v46 = S::select(b3, v45, S::constant(0.0));
     let v47 = p_g * v20;
     let v48 = -v47;
     let v49 = v28 + v27;
@@ -1715,7 +1721,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v54 = v12 * v53;
     let v55 = -v54;
     let v56 = S::select(b0, v55, S::constant(0.0));
-    let v57 = S::select(b3, S::constant(0.0), v56);
+    let v57 = S::select(b3, v56, S::constant(0.0));
     let v58 = S::constant(1.0) / v6;
     let v59 = v12 / v6;
     let v60 = S::select(b0, v59, S::constant(0.0));
@@ -1726,7 +1732,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v65 = v64 / v6;
     let v66 = v12 * v65;
     let v67 = S::select(b0, v66, S::constant(0.0));
-    let v68 = S::select(b3, S::constant(0.0), v67);
+    let v68 = S::select(b3, v67, S::constant(0.0));
     let v69 = v7 / v6;
     let v70 = S::constant(0.5) * v3;
     let v71 = v69 * v70;
@@ -1756,7 +1762,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v95 = v43 * v74;
     let v96 = v94 + v95;
     let v97 = S::select(b0, v96, S::constant(0.0));
-    let v98 = S::select(b3, S::constant(0.0), v97);
+    let v98 = S::select(b3, v97, S::constant(0.0));
     let v99 = S::select(b0, S::constant(1.0), S::constant(1.0));
     let v100 = v69 * v99;
     let v101 = -v100;
@@ -1765,7 +1771,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v104 = v12 * v103;
     let v105 = -v104;
     let v106 = S::select(b0, v105, S::constant(0.0));
-    let v107 = S::select(b3, S::constant(0.0), v106);
+    let v107 = S::select(b3, v106, S::constant(0.0));
     let v108 = S::select(b0, v34, S::constant(0.0));
     let v109 = v20 * p_g;
     let v110 = v108 + v109;
@@ -1773,12 +1779,12 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v112 = v110 + v111;
     let v113 = v12 * v112;
     let v114 = S::select(b0, v113, S::constant(0.0));
-    let v115 = S::select(b3, S::constant(0.0), v114);
+    let v115 = S::select(b3, v114, S::constant(0.0));
     let v116 = -v8;
     let v117 = v20 * p_m;
     let v118 = v12 * v117;
     let v119 = S::select(b0, v118, S::constant(0.0));
-    let v120 = S::select(b3, S::constant(0.0), v119);
+    let v120 = S::select(b3, v119, S::constant(0.0));
     let v121 = v10 * tau;
     let v122 = v0 * v121;
     let v123 = v69 * v122;
@@ -1813,7 +1819,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let v152 = v43 * v129;
     let v153 = v151 + v152;
     let v154 = S::select(b0, v153, S::constant(0.0));
-    let v155 = S::select(b3, S::constant(0.0), v154);
+    let v155 = S::select(b3, v154, S::constant(0.0));
     let mut dflow = [[S::constant(0.0); STATES]; C];
     let mut dintegrands = [[S::constant(0.0); INTEGRALS]; C];
     let results = dflow.iter_mut().zip(dintegrands.iter_mut());
