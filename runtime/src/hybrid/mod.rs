@@ -23,8 +23,9 @@ use nalgebra::{DMatrix, DVector};
 use rates::{Bare, Rates, Whole};
 use run::Run;
 
-/// The largest number of columns in one pass.
-const WIDEST: usize = 12;
+/// The largest numbers of columns in one pass. Each width is compiled for each model, so there are few.
+const WIDEST_BARE: usize = 4;
+const WIDEST_WHOLE: usize = 8;
 
 /// The return map of a compiled model.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,13 +58,15 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         };
         let mut result: Option<MapResult> = None;
         let mut first = 0;
+        let bare = !request.measures && chosen.is_empty();
         loop {
-            let width = (count - first).min(WIDEST);
+            let width = (count - first).min(if bare { WIDEST_BARE } else { WIDEST_WHOLE });
             let columns = Columns {
                 first,
                 width,
                 coordinates,
                 chosen,
+                bare,
             };
             let part = dispatch::<M, N, P, Q>(request, section, columns)?;
             result = Some(match result {
@@ -106,6 +109,7 @@ struct Columns<'a> {
     width: usize,
     coordinates: usize,
     chosen: &'a [usize],
+    bare: bool,
 }
 
 fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
@@ -113,22 +117,19 @@ fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     section: usize,
     columns: Columns<'_>,
 ) -> Result<MapResult, Stop> {
-    let bare = !request.measures && columns.chosen.is_empty();
     macro_rules! widths {
-        ($($c:literal),+) => {
+        ($kind:ty, $w:expr; $($c:literal),+) => {
             match columns.width {
-                $(width if width <= $c => {
-                    if bare {
-                        pass::<M, Bare, N, P, Q, 0, $c>(request, section, columns)
-                    } else {
-                        pass::<M, Whole, N, P, Q, Q, $c>(request, section, columns)
-                    }
-                })+
+                $(width if width <= $c => pass::<M, $kind, N, P, Q, { $w }, $c>(request, section, columns),)+
                 _ => Err(Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() }),
             }
         };
     }
-    widths!(0, 1, 2, 3, 4, 6, 8, 12)
+    if columns.bare {
+        widths!(Bare, 0; 0, 1, 2, 4)
+    } else {
+        widths!(Whole, Q; 0, 2, 4, 8)
+    }
 }
 
 fn pass<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(

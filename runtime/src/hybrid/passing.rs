@@ -3,8 +3,7 @@
 use super::functionals::{Variation, along, observe};
 use super::rates::Rates;
 use super::run::Run;
-use super::segment::Found;
-use crate::event::{Side, Surface, gradient};
+use crate::event::{Found, Side, Surface, gradient};
 use crate::model::Model;
 use crate::return_map::{Event, StopReason, Warning};
 use crate::sensitivity::{Clock, Crossing};

@@ -3,6 +3,7 @@
 //! With x' = f(x, tau, t, p), t = start + tau and a column (v, w, s) of variations of state, parameters and start:
 //! v' = f_x v + f_p w + f_t s, and likewise for the integrands.
 
+use crate::event::Frame;
 use crate::model::{Env, Model};
 use crate::ode::Bundle;
 use crate::sensitivity::Dual;
@@ -27,6 +28,17 @@ pub(crate) struct Segment<'a, const P: usize, const C: usize> {
 }
 
 impl<const P: usize, const C: usize> Segment<'_, P, C> {
+    /// What does not depend on the columns.
+    pub(crate) fn frame(&self) -> Frame<'_, P> {
+        Frame {
+            mode: self.mode,
+            start: self.start,
+            p: self.p,
+            memory: &self.memory,
+            branch: &self.branch,
+        }
+    }
+
     /// The environment at `tau`.
     #[inline(always)]
     pub(crate) fn env(&self, tau: f64) -> Env<'_, f64, P> {
@@ -65,7 +77,7 @@ pub(crate) struct Whole;
 impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>
     Rates<M, N, P, Q, 0, C> for Bare
 {
-    #[inline(always)]
+    #[inline]
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, 0, C>) -> Bundle<N, 0, C> {
         let (x, mut dx) = M::variational(segment.mode, &y.x, &y.dx, &segment.env(tau));
         if M::INFO.uses_time && C > 0 {
@@ -83,7 +95,7 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C:
 impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>
     Rates<M, N, P, Q, Q, C> for Whole
 {
-    #[inline(always)]
+    #[inline]
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, Q, C>) -> Bundle<N, Q, C> {
         let mut r =
             M::integrated_variational(segment.mode, &y.x, &y.dx, &segment.dp, &segment.env(tau));

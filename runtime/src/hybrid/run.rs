@@ -5,33 +5,14 @@
 
 use super::functionals::Functionals;
 use super::rates::{Rates, Segment};
-use crate::event::{Reading, Side, Surface, read};
-use crate::model::{Direction, Model};
-use crate::ode::{Bundle, Controller, Step, Tolerance, attempt, error};
+use crate::event::{Watched, read};
+use crate::model::Model;
+use crate::ode::{Bundle, Controller, Stages, Step, Tolerance, attempt, error};
 use crate::return_map::{Accuracy, Event, Statistics, StopReason, Warning};
 use core::marker::PhantomData;
 
 /// Steps in a row that may fail before the run gives up.
 const MOST_REJECTIONS: usize = 80;
-
-/// A surface that is watched in the current segment.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Watched {
-    /// Which.
-    pub(crate) surface: Surface,
-    /// The passages that count.
-    pub(crate) direction: Direction,
-    /// Where the run is.
-    pub(crate) side: Side,
-    /// Reading at the start of the current step.
-    pub(crate) start: Reading,
-    /// Reading at its end.
-    pub(crate) end: Reading,
-    /// Largest magnitude of the value in the segment.
-    pub(crate) largest: f64,
-    /// Largest magnitude of the rate in the segment.
-    pub(crate) fastest: f64,
-}
 
 /// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
 pub(crate) struct Run<
@@ -68,6 +49,8 @@ pub(crate) struct Run<
     pub(crate) deadline: f64,
     /// Events in a row that followed almost at once.
     pub(crate) hasty: usize,
+    /// Where the last value that was not finite was met [s].
+    pub(crate) not_finite_at: f64,
     pub(crate) kind: PhantomData<(M, R)>,
 }
 
@@ -115,6 +98,7 @@ where
             statistics: Statistics::default(),
             deadline: accuracy.time_limit,
             hasty: 0,
+            not_finite_at: f64::INFINITY,
             kind: PhantomData,
         }
     }
@@ -130,12 +114,6 @@ where
     /// Time since the start of the run.
     pub(crate) fn time(&self) -> f64 {
         self.segment.start + self.step.tau
-    }
-
-    /// The flow without variations.
-    #[inline]
-    pub(crate) fn flow(segment: &Segment<'_, P, C>, tau: f64, x: &[f64; N]) -> [f64; N] {
-        M::flow(segment.mode, x, &segment.env(tau))
     }
 
     /// Takes one step that satisfies the error control, and reads all surfaces at its end.
@@ -172,29 +150,49 @@ where
                 self.statistics.steps += 1;
                 return Ok(());
             }
-            failure = if size.is_finite() {
-                StopReason::StepTooSmall
-            } else {
+            if !size.is_finite() {
+                self.not_finite_at = self.time() + h;
+            }
+            // Just before the edge of the domain the error control may ask for small steps first.
+            let near = self.not_finite_at - self.time() <= 1e-6 * self.time().max(h);
+            failure = if near {
                 StopReason::NotFinite
+            } else {
+                StopReason::StepTooSmall
             };
             self.statistics.rejected += 1;
         }
         Err(failure)
     }
 
-    #[inline]
     fn try_step(&mut self, h: f64) {
-        let segment = &self.segment;
-        let rates = |tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y);
         self.step.h = h;
-        self.step.end = attempt(
-            &rates,
+        self.step.end = Self::attempt(
+            &self.segment,
             self.step.tau,
             h,
             &self.step.start,
             &mut self.step.stages,
         );
         self.statistics.evaluations += 11;
+    }
+
+    /// One step of everything; the one place where the method is compiled for this model and number of columns.
+    #[inline(never)]
+    pub(crate) fn attempt(
+        segment: &Segment<'_, P, C>,
+        tau: f64,
+        h: f64,
+        start: &Bundle<N, W, C>,
+        stages: &mut Stages<Bundle<N, W, C>>,
+    ) -> Bundle<N, W, C> {
+        attempt(
+            &|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y),
+            tau,
+            h,
+            start,
+            stages,
+        )
     }
 
     /// Flow and surfaces at the end of the step; false when any is not finite.
