@@ -7,7 +7,7 @@ mod common;
 use common::climbers::{M_L, parameters};
 use common::{check_derivatives, completed, request};
 use gaitc_runtime::orbit::{Gait, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{MapRequest, Sensitivity};
+use gaitc_runtime::return_map::{Accuracy, MapRequest, Sensitivity};
 
 #[test]
 fn determinant_is_the_closed_form() {
@@ -115,4 +115,37 @@ fn work_stays_small() {
         "{:?}",
         r.statistics
     );
+}
+
+/// `cargo test --release -- --ignored --nocapture how_long`: prints, judges nothing (machines differ).
+#[test]
+#[ignore = "prints timings"]
+fn how_long_a_unit_takes() {
+    let p = parameters(25.0);
+    for relative in [1e-12, 1e-10] {
+        let accuracy = Accuracy {
+            relative,
+            absolute: 0.1 * relative,
+            ..Accuracy::default()
+        };
+        let base = MapRequest {
+            memory: &[0.0],
+            accuracy,
+            ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates)
+        };
+        let r = completed(&M_L, &base);
+        let det = r.jacobian.determinant() - (2.0 * p[3]).cos() * (p[1] + p[0]) / p[1];
+        let mut times: Vec<f64> = (0..2000)
+            .map(|_| {
+                let start = std::time::Instant::now();
+                std::hint::black_box(completed(&M_L, std::hint::black_box(&base)));
+                start.elapsed().as_secs_f64() * 1e6
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        println!(
+            "{relative:e}: {} us, det error {det:e}, {:?}",
+            times[1000], r.statistics
+        );
+    }
 }

@@ -87,8 +87,8 @@ pub fn error<V: OdeState>(h: f64, y: &V, end: &V, k: &Stages<V>, tolerance: Tole
     let mut worst = 0.0;
     y.blocks([end, &e5, &e3], &mut |start, [end, e5, e3]| {
         let block = block_error(start, end, e5, e3, tolerance);
-        // Written so that NaN wins.
-        if !(block <= worst) {
+        // NaN wins, and stays.
+        if block > worst || block.is_nan() {
             worst = block;
         }
     });

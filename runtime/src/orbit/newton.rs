@@ -287,8 +287,8 @@ fn residual(z: &DVector<f64>, image: &DVector<f64>) -> f64 {
     let mut worst = 0.0;
     for (a, b) in z.iter().zip(image) {
         let component = (b - a).abs() / a.abs().max(1.0);
-        // Written so that NaN wins.
-        if !(component <= worst) {
+        // NaN wins, and stays.
+        if component > worst || component.is_nan() {
             worst = component;
         }
     }
