@@ -15,17 +15,12 @@ fn published_multipliers() {
         let p = parameters(psi);
         let found = [0.2, 0.5, 0.8, 1.2, 2.0].iter().any(|guess| {
             let outcome = find_gait(&M_A, &GaitRequest::new(&p, &[]), &[*guess]).unwrap();
-            println!("{psi} {guess} {:?} {}", outcome.status, outcome.message);
             let Some(gait) = outcome
                 .gait
                 .filter(|_| outcome.status == GaitStatus::Converged)
             else {
                 return false;
             };
-            println!(
-                "{} {:?} {:?}",
-                gait.coordinates, gait.multipliers, gait.map.statistics
-            );
             gait.coordinates[0] > 0.05 && (gait.multipliers[0].re - multiplier).abs() < 5e-4
         });
         assert!(found, "no gait with multiplier {multiplier} at {psi} deg");

@@ -22,11 +22,6 @@ fn determinant_is_the_closed_form() {
                 },
             );
             let exact = (2.0 * p[3]).cos() * (p[1] + p[0]) / p[1];
-            println!(
-                "{psi} {:e} {:?}",
-                r.jacobian.determinant() - exact,
-                r.statistics
-            );
             approx::assert_abs_diff_eq!(r.jacobian.determinant(), exact, epsilon = 1e-12);
         }
     }
@@ -73,7 +68,6 @@ fn gaits_turn_stable_at_the_closed_form_sprawl() {
 #[test]
 fn gait_at_25_degrees() {
     let g = gait(25.0, [-0.35, -0.2]);
-    println!("{} {:?} {:?}", g.coordinates, g.multipliers, g.map.measures);
     let square = g.multipliers[0].norm_sqr();
     approx::assert_abs_diff_eq!(
         square,
@@ -120,6 +114,7 @@ fn work_stays_small() {
 /// `cargo test --release -- --ignored --nocapture how_long`: prints, judges nothing (machines differ).
 #[test]
 #[ignore = "prints timings"]
+#[allow(clippy::print_stdout)] // that is its purpose
 fn how_long_a_unit_takes() {
     let p = parameters(25.0);
     for relative in [1e-12, 1e-10] {

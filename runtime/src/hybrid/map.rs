@@ -47,7 +47,7 @@ where
             self.deadline = self.segment.start + self.accuracy.time_limit;
             self.check_finite()?;
             self.begin(turn == 0 && request.measures)?;
-            self.to_section(section, turn + 1 == request.period && request.measures)?;
+            self.run_to_section(section, turn + 1 == request.period && request.measures)?;
             at = self.project();
         }
         Ok((at, first))
@@ -81,7 +81,7 @@ where
         Ok(())
     }
 
-    fn to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
+    fn run_to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
         loop {
             self.advance()?;
             let found = self.first_events();

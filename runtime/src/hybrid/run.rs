@@ -126,8 +126,7 @@ where
                 return Err(StopReason::StepLimit);
             }
             let h = self.h.min(rest);
-            // Written so that NaN stops, too.
-            if !(h > 2.0 * f64::EPSILON * self.step.tau) {
+            if h <= 2.0 * f64::EPSILON * self.step.tau || h.is_nan() || h == 0.0 {
                 break;
             }
             self.try_step(h);
