@@ -4,6 +4,7 @@ pub(crate) mod event;
 pub mod hybrid;
 pub mod model;
 pub mod ode;
+pub mod optimize;
 pub mod orbit;
 pub mod probe;
 pub mod registry;

@@ -14,13 +14,7 @@ fn determinant_is_the_closed_form() {
     for psi in [5.0, 18.0, 25.0, 35.0, 39.0, 39.5, 44.0] {
         for z in [[-0.35, -0.2], [-0.6, 0.4], [0.1, -0.9]] {
             let p = parameters(psi);
-            let r = completed(
-                &M_L,
-                &MapRequest {
-                    memory: &[0.0],
-                    ..request(&z, &p, Sensitivity::Coordinates)
-                },
-            );
+            let r = completed(&M_L, &MapRequest { memory: &[0.0], ..request(&z, &p, Sensitivity::Coordinates) });
             let exact = (2.0 * p[3]).cos() * (p[1] + p[0]) / p[1];
             approx::assert_abs_diff_eq!(r.jacobian.determinant(), exact, epsilon = 1e-12);
         }
@@ -31,17 +25,9 @@ fn determinant_is_the_closed_form() {
 fn all_derivatives_agree_with_differences() {
     let p = parameters(25.0);
     let z = [-0.35, -0.2];
-    let base = MapRequest {
-        memory: &[0.0],
-        ..request(&z, &p, Sensitivity::None)
-    };
+    let base = MapRequest { memory: &[0.0], ..request(&z, &p, Sensitivity::None) };
     check_derivatives(&M_L, &base, &[0, 1, 2, 3, 4, 5], 2e-9);
-    check_derivatives(
-        &M_L,
-        &MapRequest { period: 2, ..base },
-        &[0, 1, 2, 3, 4, 5],
-        1e-8,
-    );
+    check_derivatives(&M_L, &MapRequest { period: 2, ..base }, &[0, 1, 2, 3, 4, 5], 1e-8);
 }
 
 fn gait(psi: f64, guess: [f64; 2]) -> Gait {
@@ -69,17 +55,10 @@ fn gaits_turn_stable_at_the_closed_form_sprawl() {
 fn gait_at_25_degrees() {
     let g = gait(25.0, [-0.35, -0.2]);
     let square = g.multipliers[0].norm_sqr();
-    approx::assert_abs_diff_eq!(
-        square,
-        (50.0_f64).to_radians().cos() * 0.63 / 0.5,
-        epsilon = 1e-12
-    );
+    approx::assert_abs_diff_eq!(square, (50.0_f64).to_radians().cos() * 0.63 / 0.5, epsilon = 1e-12);
     approx::assert_abs_diff_eq!(g.map.duration, 1.0 / 6.0, epsilon = 1e-15);
     let p = parameters(25.0);
-    let two = GaitRequest {
-        period: 2,
-        ..GaitRequest::new(&p, &[0.0])
-    };
+    let two = GaitRequest { period: 2, ..GaitRequest::new(&p, &[0.0]) };
     let twice = find_gait(&M_L, &two, &[-0.35, -0.2]).unwrap().gait.unwrap();
     approx::assert_abs_diff_eq!(twice.spectral_radius, square, epsilon = 1e-11);
     approx::assert_abs_diff_eq!(twice.coordinates[0], g.coordinates[0], epsilon = 1e-11);
@@ -97,13 +76,7 @@ fn a_far_guess_still_finds_a_gait() {
 #[test]
 fn work_stays_small() {
     let p = parameters(25.0);
-    let r = completed(
-        &M_L,
-        &MapRequest {
-            memory: &[0.0],
-            ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates)
-        },
-    );
+    let r = completed(&M_L, &MapRequest { memory: &[0.0], ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates) });
     assert!(
         r.statistics.steps <= 15 && r.statistics.rejected <= 1 && r.statistics.evaluations <= 292,
         "{:?}",
@@ -118,16 +91,8 @@ fn work_stays_small() {
 fn how_long_a_unit_takes() {
     let p = parameters(25.0);
     for relative in [1e-12, 1e-10] {
-        let accuracy = Accuracy {
-            relative,
-            absolute: 0.1 * relative,
-            ..Accuracy::default()
-        };
-        let base = MapRequest {
-            memory: &[0.0],
-            accuracy,
-            ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates)
-        };
+        let accuracy = Accuracy { relative, absolute: 0.1 * relative, ..Accuracy::default() };
+        let base = MapRequest { memory: &[0.0], accuracy, ..request(&[-0.35, -0.2], &p, Sensitivity::Coordinates) };
         let r = completed(&M_L, &base);
         let det = r.jacobian.determinant() - (2.0 * p[3]).cos() * (p[1] + p[0]) / p[1];
         let mut times: Vec<f64> = (0..2000)
@@ -138,9 +103,6 @@ fn how_long_a_unit_takes() {
             })
             .collect();
         times.sort_by(f64::total_cmp);
-        println!(
-            "{relative:e}: {} us, det error {det:e}, {:?}",
-            times[1000], r.statistics
-        );
+        println!("{relative:e}: {} us, det error {det:e}, {:?}", times[1000], r.statistics);
     }
 }

@@ -15,16 +15,7 @@ use core::marker::PhantomData;
 const MOST_REJECTIONS: usize = 80;
 
 /// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
-pub(crate) struct Run<
-    'a,
-    M,
-    R,
-    const N: usize,
-    const P: usize,
-    const Q: usize,
-    const W: usize,
-    const C: usize,
-> {
+pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> {
     /// How accurately and how far.
     pub(crate) accuracy: Accuracy,
     /// What is constant in the segment.
@@ -59,33 +50,13 @@ where
     R: Rates<M, N, P, Q, W, C>,
 {
     /// A run that has not started.
-    pub(crate) fn new(
-        accuracy: Accuracy,
-        p: &'a [f64; P],
-        dp: [[f64; P]; C],
-        functionals: Functionals<C>,
-    ) -> Self {
+    pub(crate) fn new(accuracy: Accuracy, p: &'a [f64; P], dp: [[f64; P]; C], functionals: Functionals<C>) -> Self {
         let zero = Bundle::ZERO;
-        let step = Step {
-            tau: 0.0,
-            h: 0.0,
-            start: zero,
-            stages: [zero; 12],
-            end: zero,
-            end_rates: zero,
-        };
+        let step = Step { tau: 0.0, h: 0.0, start: zero, stages: [zero; 12], end: zero, end_rates: zero };
         let (memory, branch) = (Vec::new(), vec![false; M::INFO.switches.len()]);
         Self {
             accuracy,
-            segment: Segment {
-                mode: 0,
-                start: 0.0,
-                p,
-                memory,
-                branch,
-                dp,
-                dstart: [0.0; C],
-            },
+            segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C] },
             step,
             controller: Controller::default(),
             h: 0.0,
@@ -102,10 +73,7 @@ where
 
     /// Tolerance of the local error.
     pub(crate) fn tolerance(&self) -> Tolerance {
-        Tolerance {
-            relative: self.accuracy.relative,
-            absolute: self.accuracy.absolute,
-        }
+        Tolerance { relative: self.accuracy.relative, absolute: self.accuracy.absolute }
     }
 
     /// Time since the start of the run.
@@ -130,13 +98,7 @@ where
                 break;
             }
             self.try_step(h);
-            let mut size = error(
-                h,
-                &self.step.start,
-                &self.step.end,
-                &self.step.stages,
-                tolerance,
-            );
+            let mut size = error(h, &self.step.start, &self.step.end, &self.step.stages, tolerance);
             if size <= 1.0 && !self.finish_step() {
                 size = f64::NAN;
             }
@@ -146,18 +108,10 @@ where
                 self.statistics.steps += 1;
                 return Ok(());
             }
-            failure = if size.is_finite() {
-                StopReason::StepTooSmall
-            } else {
-                StopReason::NotFinite
-            };
+            failure = if size.is_finite() { StopReason::StepTooSmall } else { StopReason::NotFinite };
             self.statistics.rejected += 1;
         }
-        Err(if self.domain_ends() {
-            StopReason::NotFinite
-        } else {
-            failure
-        })
+        Err(if self.domain_ends() { StopReason::NotFinite } else { failure })
     }
 
     /// Whether the flow is not defined a short way ahead along its tangent. At the edge of a domain (a square root near
@@ -168,22 +122,13 @@ where
         for i in 0..N {
             x[i] += ahead * self.step.stages[0].x[i];
         }
-        let flow = self
-            .segment
-            .frame()
-            .flow::<M, N, Q>(self.step.tau + ahead, &x);
+        let flow = self.segment.frame().flow::<M, N, Q>(self.step.tau + ahead, &x);
         !flow.iter().all(|v| v.is_finite())
     }
 
     fn try_step(&mut self, h: f64) {
         self.step.h = h;
-        self.step.end = Self::attempt(
-            &self.segment,
-            self.step.tau,
-            h,
-            &self.step.start,
-            &mut self.step.stages,
-        );
+        self.step.end = Self::attempt(&self.segment, self.step.tau, h, &self.step.start, &mut self.step.stages);
         self.statistics.evaluations += 11;
     }
 
@@ -196,13 +141,7 @@ where
         start: &Bundle<N, W, C>,
         stages: &mut Stages<Bundle<N, W, C>>,
     ) -> Bundle<N, W, C> {
-        attempt(
-            &|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y),
-            tau,
-            h,
-            start,
-            stages,
-        )
+        attempt(&|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y), tau, h, start, stages)
     }
 
     /// Flow and surfaces at the end of the step; false when any is not finite.

@@ -63,11 +63,7 @@ fn rows_sum_to_the_nodes() {
 fn order_conditions_hold_for_all_trees_up_to_order_8() {
     let counts: Vec<usize> = (1..=8).map(|order| trees(order).len()).collect();
     assert_eq!(counts, [1, 1, 2, 4, 9, 20, 48, 115]);
-    let sum = |weights: &[f64], tree: &Tree| {
-        (0..STAGES)
-            .map(|i| weights[i] * tree.weight(i))
-            .sum::<f64>()
-    };
+    let sum = |weights: &[f64], tree: &Tree| (0..STAGES).map(|i| weights[i] * tree.weight(i)).sum::<f64>();
     for order in 1..=8 {
         for tree in trees(order) {
             assert_abs_diff_eq!(sum(&A[12], &tree), 1.0 / tree.density(), epsilon = 2e-14);
@@ -81,10 +77,7 @@ fn order_conditions_hold_for_all_trees_up_to_order_8() {
         }
     }
     // Not of order 9: the test can fail.
-    let defect = trees(9)
-        .iter()
-        .map(|t| (sum(&A[12], t) - 1.0 / t.density()).abs())
-        .fold(0.0, f64::max);
+    let defect = trees(9).iter().map(|t| (sum(&A[12], t) - 1.0 / t.density()).abs()).fold(0.0, f64::max);
     assert!(defect > 1e-7);
     assert!(D.iter().all(|row| row.iter().all(|v| v.is_finite())));
 }
@@ -92,12 +85,7 @@ fn order_conditions_hold_for_all_trees_up_to_order_8() {
 type Plane = Bundle<2, 0, 0>;
 
 fn plane(x: [f64; 2]) -> Plane {
-    Bundle {
-        x,
-        q: [],
-        dx: [],
-        dq: [],
-    }
+    Bundle { x, q: [], dx: [], dq: [] }
 }
 
 /// A pendulum-like nonlinear field with the exact solution x = (tan tau, 1/cos tau).
@@ -111,14 +99,7 @@ fn one_step(tau: f64, h: f64) -> Step<Plane> {
     let mut stages = [start; 12];
     stages[0] = rates(tau, &start);
     let end = attempt(&rates, tau, h, &start, &mut stages);
-    Step {
-        tau,
-        h,
-        start,
-        stages,
-        end,
-        end_rates: rates(tau + h, &end),
-    }
+    Step { tau, h, start, stages, end, end_rates: rates(tau + h, &end) }
 }
 
 #[test]
@@ -130,26 +111,17 @@ fn one_step_errs_by_h_to_the_ninth_and_dense_output_by_h_to_the_eighth() {
         let inside = [0.2, 0.35, 0.5, 0.77].map(|u| (dense.at(u)[0] - exact(u)).abs());
         assert_abs_diff_eq!(dense.at(0.0)[0], step.start.x[0], epsilon = 1e-15);
         assert_abs_diff_eq!(dense.at(1.0)[0], step.end.x[0], epsilon = 1e-15);
-        (
-            (step.end.x[0] - exact(1.0)).abs(),
-            inside.into_iter().fold(0.0, f64::max),
-        )
+        ((step.end.x[0] - exact(1.0)).abs(), inside.into_iter().fold(0.0, f64::max))
     };
     let (coarse, fine) = (errors(0.4), errors(0.2));
     let (step, dense) = ((coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2());
     assert!((8.5..10.5).contains(&step), "order of the step {step}");
-    assert!(
-        (dense - 8.0).abs() < 0.8,
-        "order of the dense output {dense}"
-    );
+    assert!((dense - 8.0).abs() < 0.8, "order of the dense output {dense}");
 }
 
 #[test]
 fn the_error_estimate_falls_like_h_to_the_eighth() {
-    let tolerance = Tolerance {
-        relative: 1e-9,
-        absolute: 1e-9,
-    };
+    let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
     let estimate = |h: f64| {
         let step = one_step(0.1, h);
         error(h, &step.start, &step.end, &step.stages, tolerance)

@@ -1,0 +1,91 @@
+//! The gait at given parameters, and continuation of a gait in the parameters.
+
+use super::problem::{Problem, ProblemError};
+use crate::orbit::{GaitRequest, GaitStatus, find_gait};
+use crate::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, Sensitivity, Stop};
+
+/// Smallest part of the way that continuation takes at once.
+const SHORTEST: f64 = 1.0 / 512.0;
+
+/// Why there is no gait.
+#[derive(Clone, Debug)]
+pub(super) enum NoGait {
+    /// The map stops at the guess itself.
+    Stopped(Stop),
+    /// Newton ends where P(z) - z is still this large.
+    NotConverged(f64),
+    /// The problem is wrong.
+    Wrong(ProblemError),
+}
+
+/// One map with the Jacobian in the coordinates.
+pub(super) fn map(
+    problem: &Problem<'_>,
+    parameters: &[f64],
+    section: &[f64],
+    accuracy: Accuracy,
+    measures: bool,
+) -> Result<MapResult, NoGait> {
+    let outcome = problem.map.evaluate(&MapRequest {
+        coordinates: section,
+        parameters,
+        memory: &problem.memory,
+        period: problem.period,
+        sensitivity: Sensitivity::Coordinates,
+        measures,
+        accuracy,
+    });
+    match outcome {
+        Ok(MapOutcome::Completed(map)) => Ok(*map),
+        Ok(MapOutcome::Stopped(stop)) => Err(NoGait::Stopped(stop)),
+        Err(error) => Err(NoGait::Wrong(error.into())),
+    }
+}
+
+/// The gait near a guess.
+pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
+    let request = GaitRequest {
+        period: problem.period,
+        accuracy: problem.settings.accuracy,
+        measures: false,
+        tolerance: f64::max(1e-10, 10.0 * problem.settings.accuracy.relative),
+        ..GaitRequest::new(parameters, &problem.memory)
+    };
+    let outcome = find_gait(problem.map, &request, guess).map_err(|error| NoGait::Wrong(error.into()))?;
+    match (outcome.status, outcome.gait) {
+        (GaitStatus::Converged, Some(gait)) => Ok(gait.coordinates.as_slice().to_vec()),
+        (GaitStatus::Stopped(stop), _) => Err(NoGait::Stopped(stop)),
+        _ => Err(NoGait::NotConverged(outcome.residual)),
+    }
+}
+
+/// Follows a gait from one set of parameters to another, halving the way on failure; predicts along the secant.
+pub(super) fn follow(problem: &Problem<'_>, from: (&[f64], &[f64]), to: &[f64]) -> Result<Vec<f64>, NoGait> {
+    let (start, gait) = from;
+    let between = |t: f64| -> Vec<f64> {
+        start.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
+    };
+    let (mut t, mut stride) = (0.0, 1.0);
+    let mut z = gait.to_vec();
+    let mut slope = vec![0.0; z.len()];
+    while t < 1.0 {
+        let next: f64 = f64::min(1.0, t + stride);
+        let guess: Vec<f64> = z.iter().zip(&slope).map(|(z, s)| z + s * (next - t)).collect();
+        match near(problem, &between(next), &guess) {
+            Ok(found) => {
+                slope = found.iter().zip(&z).map(|(a, b)| (a - b) / (next - t)).collect();
+                (z, t) = (found, next);
+                stride *= 2.0;
+            }
+            Err(NoGait::Wrong(error)) => return Err(NoGait::Wrong(error)),
+            Err(failure) => {
+                stride *= 0.5;
+                slope.fill(0.0);
+                if stride < SHORTEST {
+                    return Err(failure);
+                }
+            }
+        }
+    }
+    Ok(z)
+}

@@ -1,0 +1,137 @@
+//! First derivatives of the nonlinear program in the scaled unknowns, by the chain rule through measures, the return
+//! map's Jacobian, its characteristic polynomial and the Jury rows.
+
+use super::jacobian_derivative::jacobian_derivative;
+use super::jury;
+use super::problem::{ConstraintKind, Objective, Value};
+use super::program::{Failure, Point, Program, Row};
+use nalgebra::{DMatrix, DVector};
+
+/// All first derivatives at a point, with respect to u.
+#[derive(Clone, Debug)]
+pub(super) struct Linearisation {
+    /// Of the objective.
+    pub(super) f: DVector<f64>,
+    /// Of the periodicity, d x n.
+    pub(super) h: DMatrix<f64>,
+    /// Of the inequalities, rows x n.
+    pub(super) c: DMatrix<f64>,
+    /// For Jury rows: derivative with respect to the bound r, SI units; 0 for margins.
+    pub(super) radius: Vec<f64>,
+}
+
+impl Program<'_> {
+    /// All first derivatives at a point.
+    pub(super) fn linearise(&self, point: &Point) -> Result<Linearisation, Failure> {
+        let wanted = self.rows.iter().any(|row| matches!(row, Row::Jury(..)));
+        let derivative = if wanted { jacobian_derivative(self, point)? } else { Vec::new() };
+        let mut c = DMatrix::zeros(self.rows.len(), self.len());
+        let mut radius = vec![0.0; self.rows.len()];
+        for (k, row) in self.rows.iter().enumerate() {
+            match *row {
+                Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, point)?.transpose()),
+                // All rows of a block at once, when its first comes.
+                Row::Jury(of, 0) => {
+                    for (i, (gradient, slope)) in self.jury_gradients(of, point, &derivative)?.into_iter().enumerate() {
+                        c.set_row(k + i, &gradient.transpose());
+                        radius[k + i] = slope;
+                    }
+                }
+                Row::Jury(..) => {}
+            }
+        }
+        let (f, h) = (self.objective_gradient(point)?, self.periodicity_jacobian(point));
+        if f.iter().chain(h.iter()).chain(c.iter()).all(|x| x.is_finite()) {
+            Ok(Linearisation { f, h, c, radius })
+        } else {
+            Err(Failure::NotFinite("a derivative".to_owned()))
+        }
+    }
+
+    /// Gradients of a block of Jury rows, and their derivatives with respect to the bound in SI units.
+    fn jury_gradients(
+        &self,
+        of: Option<usize>,
+        point: &Point,
+        derivative: &[DMatrix<f64>],
+    ) -> Result<Vec<(DVector<f64>, f64)>, Failure> {
+        let bound = self.radius(of, &point.u, &point.map, &point.parameters)?;
+        let reference = self.reference(of);
+        let polynomial = self.characteristic(of, &point.map);
+        let slopes: Vec<Vec<f64>> = derivative.iter().map(|d| polynomial.derivative(&(d / reference))).collect();
+        let mut dbound = self.total(&bound, point);
+        if let (None, Some(at)) = (of, self.variables.epigraph_at()) {
+            dbound[at] = 1.0;
+        }
+        let gradient = |row: &jury::Row| {
+            let through = |s: &Vec<f64>| -> f64 { s.iter().zip(&row.coefficients).map(|(a, b)| a * b).sum() };
+            DVector::from_fn(self.len(), |j, _| slopes.get(j).map_or(0.0, through) + row.radius * dbound[j])
+        };
+        let rows = jury::rows(&polynomial.coefficients, bound.value);
+        Ok(rows.iter().map(|row| (gradient(row), row.radius / reference)).collect())
+    }
+
+    fn periodicity_jacobian(&self, point: &Point) -> DMatrix<f64> {
+        let d = self.variables.nominal.len();
+        let mut h = DMatrix::zeros(d, self.len());
+        for i in 0..d {
+            for j in 0..self.variables.free.len() + d {
+                h[(i, j)] =
+                    point.map.jacobian[(i, self.column(j))] * self.variables.unit(j) / self.variables.nominal[i];
+            }
+            h[(i, self.variables.section_at() + i)] -= 1.0;
+        }
+        h
+    }
+
+    /// Sensitivity column of the map for unknown number j (parameter or coordinate).
+    fn column(&self, j: usize) -> usize {
+        let m = self.variables.free.len();
+        if j < m { self.variables.nominal.len() + j } else { j - m }
+    }
+
+    pub(super) fn objective_gradient(&self, point: &Point) -> Result<DVector<f64>, Failure> {
+        let gradient = match &self.problem.objective {
+            Objective::Expression(e) => {
+                let value = self.value("the objective", e.as_ref(), &point.map, &point.parameters)?;
+                self.total(&value, point)
+            }
+            Objective::SpectralRadius => {
+                let unit = self.variables.epigraph.unwrap_or(1.0);
+                DVector::from_fn(self.len(), |j, _| if Some(j) == self.variables.epigraph_at() { unit } else { 0.0 })
+            }
+        };
+        Ok(gradient * (self.sign() / self.objective_scale))
+    }
+
+    fn margin_gradient(&self, i: usize, point: &Point) -> Result<DVector<f64>, Failure> {
+        let constraint = &self.problem.constraints[i];
+        match &constraint.kind {
+            ConstraintKind::Margin { margin, scale } => {
+                let value = self.value(&constraint.name, margin.as_ref(), &point.map, &point.parameters)?;
+                Ok(self.total(&value, point) / *scale)
+            }
+            ConstraintKind::SpectralRadius { .. } => Ok(DVector::zeros(self.len())),
+        }
+    }
+
+    /// Total derivative of an expression with respect to u, through the measures.
+    fn total(&self, value: &Value, point: &Point) -> DVector<f64> {
+        let m = self.variables.free.len();
+        let mut gradient = DVector::zeros(self.len());
+        for j in 0..m + self.variables.nominal.len() {
+            let column = self.column(j);
+            let through: f64 = value
+                .dmeasures
+                .iter()
+                .enumerate()
+                // A measure that does not matter may have no derivative there.
+                .filter(|(_, d)| **d != 0.0)
+                .map(|(k, d)| d * point.map.measures_jacobian[(k, column)])
+                .sum();
+            let direct = self.variables.free.get(j).map_or(0.0, |free| value.dparameters[free.parameter]);
+            gradient[j] = (through + direct) * self.variables.unit(j);
+        }
+        gradient
+    }
+}

@@ -1,0 +1,136 @@
+//! What is said to people: one message a verdict, with what to do next.
+
+use super::gait::NoGait;
+use super::problem::Problem;
+use super::program::{Point, Program, Row};
+use super::solution::{ActiveKind, Kink, Solution, Status};
+use crate::return_map::{Stop, StopReason, Warning};
+use std::fmt;
+
+/// The message of a verdict; `detail` names what is violated, disagrees, or what Clarabel said.
+pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) -> String {
+    match solution.status {
+        Status::Optimal => optimal(problem, solution),
+        Status::Unconfirmed => format!(
+            "the search converged, but a fresh simulation disagrees: {detail}; tighten the accuracy, or look at the gait \
+             with `gait` before relying on it"
+        ),
+        Status::InfeasibleLocally => format!(
+            "no gait near here meets all constraints: {detail}; relax that constraint, widen the ranges, or try more starts"
+        ),
+        Status::NoGait => no_gait(detail),
+        Status::Unbounded => {
+            "the objective improves without limit; bound it with a constraint or narrow the ranges".to_owned()
+        }
+        Status::IterationLimit => format!(
+            "no optimum within {} iterations (KKT residual {:.1e}); allow more iterations or start closer",
+            solution.iterations, solution.kkt_residual
+        ),
+        Status::Stalled => format!(
+            "the search cannot make progress (KKT residual {:.1e}{}); the map may stop or have a kink next to this \
+             point: start elsewhere, or keep the ranges away from it",
+            solution.kkt_residual,
+            if detail.is_empty() { String::new() } else { format!(", {detail}") }
+        ),
+        Status::SubproblemFailed => format!(
+            "Clarabel could not solve a subproblem ({detail}), also after rescaling and regularising; narrow the ranges \
+             or start elsewhere"
+        ),
+    }
+}
+
+fn optimal(problem: &Problem<'_>, solution: &Solution) -> String {
+    if solution.active.is_empty() {
+        return "local optimum, confirmed by simulation; nothing limits it".to_owned();
+    }
+    let info = problem.map.info();
+    let name = |index: usize| info.parameters.get(index).map_or("?", |q| q.name);
+    let names: Vec<String> = solution
+        .active
+        .iter()
+        .map(|active| match active.kind {
+            ActiveKind::LowerBound(p) => format!("the lower bound of `{}`", name(p)),
+            ActiveKind::UpperBound(p) => format!("the upper bound of `{}`", name(p)),
+            ActiveKind::Constraint(i) => problem.constraints.get(i).map_or(String::new(), |c| format!("`{}`", c.name)),
+        })
+        .collect();
+    format!("local optimum, confirmed by simulation; limited by {}", names.join(", "))
+}
+
+/// The message without a gait.
+pub(super) fn no_gait(detail: &str) -> String {
+    format!("no periodic gait to start from: {detail}; give a better first guess of the section, or other parameters")
+}
+
+/// Which constraints do not hold at a point, and by how much relative to their scale; empty when all hold.
+pub(super) fn violations(program: &Program<'_>, point: &Point) -> String {
+    let tolerance = 10.0 * program.problem.settings.attainable_feasibility();
+    let mut worst: Vec<(String, f64)> = Vec::new();
+    let mut add = |name: String, value: f64| match worst.iter_mut().find(|(known, _)| *known == name) {
+        Some((_, known)) => *known = known.max(value),
+        None => worst.push((name, value)),
+    };
+    for (row, c) in program.rows.iter().zip(point.c.iter()) {
+        if -c > tolerance
+            && let Row::Margin(i) | Row::Jury(Some(i), _) = *row
+            && let Some(constraint) = program.problem.constraints.get(i)
+        {
+            add(format!("`{}` is violated", constraint.name), -c);
+        }
+    }
+    if point.h.amax() > tolerance {
+        add("the gait is not periodic".to_owned(), point.h.amax());
+    }
+    let parts: Vec<String> = worst.into_iter().map(|(name, by)| format!("{name} (by {by:.1e} of its scale)")).collect();
+    parts.join(", ")
+}
+
+/// The note where multipliers meet.
+pub(super) fn kink(kink: &Kink) -> String {
+    let m = kink.multiplier;
+    format!(
+        "multipliers meet near {:.6}{:+.6}i (relative gap {:.1e}): the spectral radius has a kink here, and to one side it \
+         rises steeply",
+        m.re, m.im, kink.gap
+    )
+}
+
+/// A warning of the return map at the optimum.
+pub(super) fn warning(problem: &Problem<'_>, warning: &Warning) -> String {
+    let transitions = problem.map.info().transitions;
+    let name = |index: usize| transitions.get(index).map_or("?", |transition| transition.name);
+    match *warning {
+        Warning::Grazing { transition, time, .. } => format!(
+            "the guard of `{}` is only touched at {time:.6} s: derivatives and stability are not valid there",
+            name(transition)
+        ),
+        Warning::Tie { taken, other, time } => format!(
+            "`{}` and `{}` fire together at {time:.6} s; the first was taken, and derivatives hold for that order only",
+            name(taken),
+            name(other)
+        ),
+    }
+}
+
+impl fmt::Display for NoGait {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stopped(stop) => write!(f, "{}", stop_text(stop)),
+            Self::NotConverged(residual) => {
+                write!(f, "Newton's method ends where a map still moves the start by {residual:.1e}")
+            }
+            Self::Wrong(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+fn stop_text(stop: &Stop) -> String {
+    let why = match stop.reason {
+        StopReason::NoEvent => "no step ends within the time limit",
+        StopReason::StepLimit => "the integration needs more steps than allowed",
+        StopReason::StepTooSmall => "the integration needs steps below rounding",
+        StopReason::NotFinite => "the run leaves the domain where the model is defined",
+        StopReason::Zeno => "transitions pile up in time",
+    };
+    format!("{why} (after {:.6} s)", stop.time)
+}

@@ -1,0 +1,308 @@
+//! Sequential convex programming from one point: S l1 QP with a trust region.
+//!
+//! Each iteration minimises a convex model with elastic linearised constraints in a ball (module `subproblem`), takes
+//! the step when the exact l1 merit f + mu (|h|_1 + |min(c, 0)|_1) falls as the model promised, corrects it to second
+//! order when only the constraints' curvature spoils it (Maratos), and learns the Lagrangian's Hessian by damped BFGS.
+//! The method: R. Fletcher, *Practical Methods of Optimization*, 14.4; penalty steering after Byrd, Nocedal and Waltz.
+
+use super::active_set::refine;
+use super::kkt::{Kkt, infeasibility, kkt, lagrangian_gradient};
+use super::linearisation::Linearisation;
+use super::problem::ProblemError;
+use super::program::{Failure, Point, Program};
+use super::quasi_newton::QuasiNewton;
+use super::subproblem::{Multipliers, Step, Subproblem, Unsolved, violation};
+use nalgebra::{DMatrix, DVector};
+
+/// Largest penalty; beyond it the constraints count as not satisfiable together.
+const LARGEST_PENALTY: f64 = 1e9;
+/// Violation, relative to the radius, that Clarabel's tolerance leaves.
+const INTERIOR_POINT: f64 = 1e-7;
+const LARGEST_RADIUS: f64 = 4.0;
+const SMALLEST_RADIUS: f64 = 1e-13;
+/// Scaled objective below which it counts as unbounded.
+const UNBOUNDED: f64 = -1e7;
+/// A search that cannot go on is still an optimum when its residuals are within these.
+const ACCEPTABLE: Kkt = Kkt { optimality: 1e-5, feasibility: 1e-9 };
+/// The same, in multiples of the maps' relative tolerance, for maps of low accuracy: derivatives of the Jacobian lose
+/// most of its digits.
+const ACCEPTABLE_MULTIPLE: Kkt = Kkt { optimality: 1e4, feasibility: 100.0 };
+
+/// Why a search ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum End {
+    /// KKT conditions met to the tolerances asked for.
+    Converged,
+    /// Met, but only to `ACCEPTABLE`.
+    Acceptable,
+    /// No small step reduces the violation.
+    Infeasible,
+    /// The objective fell below any bound.
+    Unbounded,
+    /// Iterations used up.
+    IterationLimit,
+    /// Steps became too small.
+    Stalled,
+    /// Clarabel's words.
+    Subproblem(String),
+}
+
+/// Where a search ended.
+#[derive(Clone, Debug)]
+pub(super) struct Ended {
+    pub(super) end: End,
+    pub(super) point: Point,
+    pub(super) lin: Linearisation,
+    pub(super) multipliers: Multipliers,
+    pub(super) iterations: usize,
+}
+
+struct Search<'p, 'a> {
+    program: &'p Program<'a>,
+    point: Point,
+    lin: Linearisation,
+    model: QuasiNewton,
+    penalty: f64,
+    radius: f64,
+    /// Inequalities are driven to this instead of 0, so that rounding does not leave them violated.
+    margin: f64,
+    /// Steps left beyond the tolerance: they cost little, make constraints hold strictly and gain digits.
+    spare: usize,
+}
+
+/// What an iteration did.
+enum Progress {
+    Going,
+    Ended(End),
+}
+
+/// Searches from a point.
+///
+/// # Errors
+/// When the start has no derivatives, or for a problem that turns out to be wrong as stated.
+pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failure> {
+    let lin = program.linearise(&start)?;
+    let settings = &program.problem.settings;
+    let mut search = Search {
+        program,
+        point: start,
+        lin,
+        model: QuasiNewton::new(program.len()),
+        penalty: 1.0,
+        radius: settings.trust_radius,
+        margin: 0.5 * settings.attainable_feasibility(),
+        spare: 3,
+    };
+    let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
+    let mut iterations = 0;
+    let end = loop {
+        if iterations == settings.max_iterations {
+            break search.verdict(&multipliers, End::IterationLimit);
+        }
+        iterations += 1;
+        match search.iterate(&mut multipliers).map_err(Failure::Wrong)? {
+            Progress::Going => {}
+            Progress::Ended(end @ (End::Stalled | End::Subproblem(_))) => break search.verdict(&multipliers, end),
+            Progress::Ended(end) => break end,
+        }
+    };
+    Ok(Ended { end, point: search.point, lin: search.lin, multipliers, iterations })
+}
+
+impl Search<'_, '_> {
+    /// `otherwise`, unless the point is good enough all the same.
+    fn verdict(&self, multipliers: &Multipliers, otherwise: End) -> End {
+        let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
+        if self.within_tolerance(kkt) {
+            return End::Converged;
+        }
+        let relative = self.program.problem.settings.accuracy.relative;
+        let good = kkt.optimality <= ACCEPTABLE.optimality.max(ACCEPTABLE_MULTIPLE.optimality * relative)
+            && kkt.feasibility <= ACCEPTABLE.feasibility.max(ACCEPTABLE_MULTIPLE.feasibility * relative);
+        if good { End::Acceptable } else { otherwise }
+    }
+
+    fn within_tolerance(&self, kkt: Kkt) -> bool {
+        let settings = &self.program.problem.settings;
+        kkt.optimality <= settings.optimality && kkt.feasibility <= settings.attainable_feasibility()
+    }
+
+    fn iterate(&mut self, multipliers: &mut Multipliers) -> Result<Progress, ProblemError> {
+        let settings = &self.program.problem.settings;
+        if self.point.f < UNBOUNDED && infeasibility(&self.point) < 1e-4 {
+            return Ok(Progress::Ended(End::Unbounded));
+        }
+        if self.radius < SMALLEST_RADIUS {
+            return Ok(Progress::Ended(End::Stalled));
+        }
+        let (lower, upper) = self.bounds();
+        let step = match self.steered(&lower, &upper) {
+            Ok(Some(step)) => step,
+            Ok(None) => return Ok(Progress::Ended(End::Infeasible)),
+            Err(Unsolved(words)) => return Ok(Progress::Ended(End::Subproblem(words))),
+        };
+        *multipliers = step.multipliers.clone();
+        let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
+        if self.within_tolerance(kkt) {
+            let strictly = self.point.c.iter().all(|c| *c >= 0.0) && kkt.optimality <= 1e-3 * settings.optimality;
+            if self.spare == 0 || strictly {
+                return Ok(Progress::Ended(End::Converged));
+            }
+            self.spare -= 1;
+        }
+        let problem = self.subproblem(&lower, &upper);
+        let promised =
+            self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
+        if promised < 0.0 || step.s.norm() < SMALLEST_RADIUS {
+            return Ok(Progress::Ended(End::Stalled));
+        }
+        self.advance(&step, promised, &lower, &upper)?;
+        Ok(Progress::Going)
+    }
+
+    /// Bounds on the step.
+    fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
+        let bounds = (0..self.program.len()).map(|i| {
+            let (lower, upper) = self.program.variables.bounds(i);
+            (f64::min(lower - self.point.u[i], 0.0), f64::max(upper - self.point.u[i], 0.0))
+        });
+        bounds.unzip()
+    }
+
+    fn shifted(&self, c: &DVector<f64>) -> DVector<f64> {
+        c.add_scalar(-self.margin)
+    }
+
+    fn merit(&self, point: &Point) -> f64 {
+        point.f + self.penalty * violation(&point.h, &self.shifted(&point.c))
+    }
+
+    fn subproblem<'s>(&'s self, lower: &'s [f64], upper: &'s [f64]) -> Subproblem<'s> {
+        Subproblem {
+            hessian: &self.model.matrix,
+            gradient: &self.lin.f,
+            equality: &self.lin.h,
+            h: self.point.h.clone(),
+            inequality: &self.lin.c,
+            c: self.shifted(&self.point.c),
+            lower,
+            upper,
+            radius: self.radius,
+            penalty: self.penalty,
+        }
+    }
+
+    /// A step, with the penalty raised until it reduces the violation nearly as much as any step could; `None` when
+    /// constraints are violated and no step reduces that.
+    fn steered(&mut self, lower: &[f64], upper: &[f64]) -> Result<Option<Step>, Unsolved> {
+        let tolerance = self.program.problem.settings.attainable_feasibility();
+        // What an interior-point step leaves violated by its own tolerance is no reason to steer.
+        let nothing = f64::max(tolerance, INTERIOR_POINT * self.radius);
+        let mut step = solve(&self.subproblem(lower, upper))?;
+        let before = violation(&self.point.h, &self.shifted(&self.point.c));
+        let after = |search: &Self, step: &Step| search.subproblem(lower, upper).violation(&step.s);
+        if after(self, &step) > nothing {
+            let least = self.least_violation(lower, upper)?.min(after(self, &step));
+            if infeasibility(&self.point) > 1e2 * tolerance && before - least <= 1e-6 * before && self.radius > 1e-6 {
+                return Ok(None);
+            }
+            while before - after(self, &step) < 0.9 * (before - least) && self.penalty < LARGEST_PENALTY {
+                self.penalty *= 10.0;
+                step = solve(&self.subproblem(lower, upper))?;
+            }
+        }
+        let needed = 1.5 * step.multipliers.largest();
+        if after(self, &step) <= nothing && needed > self.penalty {
+            self.penalty = needed.min(LARGEST_PENALTY);
+        }
+        Ok(Some(step))
+    }
+
+    /// Least violation of the linearised constraints within the ball.
+    fn least_violation(&self, lower: &[f64], upper: &[f64]) -> Result<f64, Unsolved> {
+        let n = self.program.len();
+        let (hessian, gradient) = (DMatrix::identity(n, n) * 1e-8, DVector::zeros(n));
+        let mut problem = self.subproblem(lower, upper);
+        problem.hessian = &hessian;
+        problem.gradient = &gradient;
+        problem.penalty = 1.0;
+        let step = problem.solve()?;
+        Ok(problem.violation(&step.s))
+    }
+
+    /// Tries a step and its second-order correction; moves when the merit falls enough, and adapts the radius.
+    fn advance(&mut self, step: &Step, promised: f64, lower: &[f64], upper: &[f64]) -> Result<(), ProblemError> {
+        let mut s = step.s.clone();
+        let mut trial = self.trial(&s)?;
+        let mut ratio = self.ratio(trial.as_ref(), promised);
+        if ratio < 0.25
+            && let Some(point) = &trial
+            && let Some(corrected) = self.corrected(&s, point, lower, upper)
+            && let Some(second) = self.trial(&corrected)?
+        {
+            let better = self.ratio(Some(&second), promised);
+            if better > ratio {
+                (s, trial, ratio) = (corrected, Some(second), better);
+            }
+        }
+        let length = s.norm();
+        let moved = match trial {
+            Some(point) if ratio > 1e-4 => self.accept(point, &step.multipliers)?,
+            _ => false,
+        };
+        if !moved {
+            self.radius = 0.25 * f64::min(self.radius, length);
+        } else if ratio < 0.25 {
+            self.radius = 0.5 * f64::min(self.radius, length);
+        } else if ratio > 0.75 && length > 0.8 * self.radius {
+            self.radius = f64::min(2.0 * self.radius, LARGEST_RADIUS);
+        }
+        Ok(())
+    }
+
+    /// The point after a step; `None` where the map stops or a value is not finite.
+    fn trial(&self, s: &DVector<f64>) -> Result<Option<Point>, ProblemError> {
+        match self.program.evaluate(&(&self.point.u + s)) {
+            Ok(point) => Ok(Some(point)),
+            Err(Failure::Wrong(error)) => Err(error),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Reduction of the merit over what was promised; both are allowed the rounding of the maps.
+    fn ratio(&self, trial: Option<&Point>, promised: f64) -> f64 {
+        let error = f64::max(1e-13, 0.1 * self.program.problem.settings.accuracy.relative);
+        let rounding = error * (1.0 + self.point.f.abs() + self.penalty);
+        match trial {
+            Some(point) => (self.merit(&self.point) - self.merit(point) + rounding) / (promised + rounding),
+            None => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Second-order correction: the same model with the constraints' values after the step.
+    fn corrected(&self, s: &DVector<f64>, trial: &Point, lower: &[f64], upper: &[f64]) -> Option<DVector<f64>> {
+        let mut problem = self.subproblem(lower, upper);
+        problem.h = &trial.h - &self.lin.h * s;
+        problem.c = self.shifted(&trial.c) - &self.lin.c * s;
+        solve(&problem).ok().map(|step| step.s)
+    }
+
+    /// Moves to a point; `false` when it has no derivatives.
+    fn accept(&mut self, point: Point, multipliers: &Multipliers) -> Result<bool, ProblemError> {
+        let lin = match self.program.linearise(&point) {
+            Ok(lin) => lin,
+            Err(Failure::Wrong(error)) => return Err(error),
+            Err(_) => return Ok(false),
+        };
+        let change = lagrangian_gradient(&lin, multipliers) - lagrangian_gradient(&self.lin, multipliers);
+        self.model.update(&(&point.u - &self.point.u), &change);
+        (self.point, self.lin) = (point, lin);
+        Ok(true)
+    }
+}
+
+/// Clarabel's step, refined on its active set where that holds.
+fn solve(problem: &Subproblem<'_>) -> Result<Step, Unsolved> {
+    let step = problem.solve()?;
+    Ok(refine(problem, &step).unwrap_or(step))
+}
