@@ -1,1 +1,8 @@
-//! gaitc.
+//! gaitc compiles declarative models of hybrid dynamical systems to Rust dynamics with analytic derivatives, and finds
+//! with them periodic gaits, their stability, and the fastest stable climber.
+
+pub mod cli;
+pub mod load;
+pub mod models;
+pub mod problem;
+pub mod verify;

@@ -1,2 +1,5 @@
 //! The gaitc command.
-fn main() {}
+
+fn main() -> std::process::ExitCode {
+    gaitc::cli::main()
+}

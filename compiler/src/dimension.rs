@@ -17,6 +17,7 @@ pub struct Dimension(pub [Exponent; 7]);
 
 const SYMBOLS: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "cd"];
 
+#[allow(clippy::should_implement_trait)] // these return None on overflow, the operators cannot
 impl Exponent {
     /// Zero.
     pub const ZERO: Self = Self { numerator: 0, denominator: 1 };
@@ -56,6 +57,7 @@ impl Exponent {
     }
 }
 
+#[allow(clippy::should_implement_trait)] // these return None on overflow, the operators cannot
 impl Dimension {
     /// A pure number.
     pub const NONE: Self = Self([Exponent::ZERO; 7]);

@@ -8,9 +8,7 @@ use approx::assert_abs_diff_eq;
 use common::toys::{BALL, CHATTER, DIP, DOMAIN, FORCED, JUMP, PILING, PULSE, TWINS, WHEEL};
 use common::{check_derivatives, completed, request, stopped};
 use gaitc_runtime::orbit::{GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{
-    Accuracy, MapRequest, RequestError, ReturnMap, Sensitivity, StopReason, Warning,
-};
+use gaitc_runtime::return_map::{Accuracy, MapRequest, RequestError, ReturnMap, Sensitivity, StopReason, Warning};
 
 const ALL: Sensitivity<'static> = Sensitivity::CoordinatesAndParameters(&[0, 1]);
 
@@ -18,13 +16,7 @@ const ALL: Sensitivity<'static> = Sensitivity::CoordinatesAndParameters(&[0, 1])
 fn bouncing_ball_has_its_closed_forms() {
     let (g, e, v) = (9.81, 0.8, 3.0);
     let (z, p) = ([v], [g, e]);
-    let r = completed(
-        &BALL,
-        &MapRequest {
-            measures: true,
-            ..request(&z, &p, ALL)
-        },
-    );
+    let r = completed(&BALL, &MapRequest { measures: true, ..request(&z, &p, ALL) });
     let duration = 2.0 * v / g;
     assert_abs_diff_eq!(r.coordinates[0], e * v, epsilon = 1e-14);
     for (column, exact) in [e, 0.0, v].iter().enumerate() {
@@ -35,15 +27,7 @@ fn bouncing_ball_has_its_closed_forms() {
         assert_abs_diff_eq!(r.duration_gradient[column], exact, epsilon = 1e-13);
     }
     let apex = v * v / (2.0 * g);
-    let measures = [
-        apex,
-        -v,
-        2.0 / 3.0 * apex,
-        2.0 / 3.0 * apex * duration,
-        v,
-        -v,
-        duration,
-    ];
+    let measures = [apex, -v, 2.0 / 3.0 * apex, 2.0 / 3.0 * apex * duration, v, -v, duration];
     for (value, exact) in r.measures.iter().zip(measures) {
         assert_abs_diff_eq!(*value, exact, epsilon = 1e-13);
     }
@@ -51,10 +35,7 @@ fn bouncing_ball_has_its_closed_forms() {
     assert_abs_diff_eq!(r.measures_jacobian[(1, 0)], -1.0, epsilon = 1e-13);
     assert_abs_diff_eq!(r.events[0].transversality, -v, epsilon = 1e-13);
     check_derivatives(&BALL, &request(&z, &p, ALL), &[0, 1], 1e-10);
-    let three = MapRequest {
-        period: 3,
-        ..request(&z, &p, Sensitivity::Coordinates)
-    };
+    let three = MapRequest { period: 3, ..request(&z, &p, Sensitivity::Coordinates) };
     let three = completed(&BALL, &three);
     assert_abs_diff_eq!(three.jacobian[(0, 0)], e * e * e, epsilon = 1e-13);
     assert_eq!(three.events.len(), 3);
@@ -78,47 +59,20 @@ fn rimless_wheel_has_multiplier_mu_squared() {
     let gait = outcome.gait.unwrap();
     // Energy: the end rate w obeys w^2 = z^2 + 2 k (cos(start) - cos(end)), and z = mu w.
     let gain = 2.0 * k * ((gamma - alpha).cos() - (gamma + alpha).cos());
-    assert_abs_diff_eq!(
-        gait.coordinates[0],
-        mu * (gain / (1.0 - mu * mu)).sqrt(),
-        epsilon = 1e-13
-    );
+    assert_abs_diff_eq!(gait.coordinates[0], mu * (gain / (1.0 - mu * mu)).sqrt(), epsilon = 1e-13);
     assert_abs_diff_eq!(gait.multipliers[0].re, mu * mu, epsilon = 1e-12);
-    check_derivatives(
-        &WHEEL,
-        &request(&[1.6], &p, Sensitivity::None),
-        &[0, 1, 2, 3],
-        1e-9,
-    );
+    check_derivatives(&WHEEL, &request(&[1.6], &p, Sensitivity::None), &[0, 1, 2, 3], 1e-9);
 }
 
 #[test]
 fn a_wheel_that_is_too_slow_has_no_event() {
-    let accuracy = Accuracy {
-        time_limit: 5.0,
-        ..Accuracy::default()
-    };
+    let accuracy = Accuracy { time_limit: 5.0, ..Accuracy::default() };
     let p = [9.81, 0.3, 0.08, 0.7];
-    let stop = stopped(
-        &WHEEL,
-        &MapRequest {
-            accuracy,
-            ..request(&[0.2], &p, Sensitivity::Coordinates)
-        },
-    );
+    let stop = stopped(&WHEEL, &MapRequest { accuracy, ..request(&[0.2], &p, Sensitivity::Coordinates) });
     assert_eq!(stop.reason, StopReason::NoEvent);
     assert_abs_diff_eq!(stop.time, 5.0, epsilon = 1e-9);
-    let accuracy = Accuracy {
-        step_limit: 3,
-        ..Accuracy::default()
-    };
-    let stop = stopped(
-        &WHEEL,
-        &MapRequest {
-            accuracy,
-            ..request(&[1.6], &p, Sensitivity::Coordinates)
-        },
-    );
+    let accuracy = Accuracy { step_limit: 3, ..Accuracy::default() };
+    let stop = stopped(&WHEEL, &MapRequest { accuracy, ..request(&[1.6], &p, Sensitivity::Coordinates) });
     assert_eq!(stop.reason, StopReason::StepLimit);
 }
 
@@ -126,19 +80,11 @@ fn a_wheel_that_is_too_slow_has_no_event() {
 fn explicit_time_enters_all_derivatives() {
     let p = [0.5, 1.7, 0.3, 0.9];
     let z = [0.35, 0.8];
-    let base = MapRequest {
-        memory: &[0.0],
-        ..request(&z, &p, Sensitivity::None)
-    };
+    let base = MapRequest { memory: &[0.0], ..request(&z, &p, Sensitivity::None) };
     let r = completed(&FORCED, &base);
     assert_eq!(r.events.len(), 2);
     check_derivatives(&FORCED, &base, &[0, 1, 2, 3], 1e-8);
-    check_derivatives(
-        &FORCED,
-        &MapRequest { period: 2, ..base },
-        &[0, 1, 2, 3],
-        1e-7,
-    );
+    check_derivatives(&FORCED, &MapRequest { period: 2, ..base }, &[0, 1, 2, 3], 1e-7);
 }
 
 #[test]
@@ -147,18 +93,11 @@ fn a_jump_of_the_flow_has_its_saltation() {
     let (a, b, w) = (0.4, -0.7, 0.5);
     let (x, y) = (0.05, 0.2);
     let (z, p) = ([x, y], [a, b, w]);
-    let base = MapRequest {
-        measures: true,
-        ..request(&z, &p, Sensitivity::CoordinatesAndParameters(&[0, 1, 2]))
-    };
+    let base = MapRequest { measures: true, ..request(&z, &p, Sensitivity::CoordinatesAndParameters(&[0, 1, 2])) };
     let r = completed(&JUMP, &base);
     let slope = 1.0 - 0.1 * a;
     let s = (w + 0.1 * y - x) / slope;
-    assert_abs_diff_eq!(
-        r.coordinates[1],
-        y + a * s + b * (1.0 - x - s),
-        epsilon = 1e-14
-    );
+    assert_abs_diff_eq!(r.coordinates[1], y + a * s + b * (1.0 - x - s), epsilon = 1e-14);
     let exact = [
         -(a - b) / slope - b,
         1.0 + (a - b) * 0.1 / slope,
@@ -171,12 +110,7 @@ fn a_jump_of_the_flow_has_its_saltation() {
     }
     // The peak is at the switch, a kink.
     assert_abs_diff_eq!(r.measures[1], y + a * s, epsilon = 1e-14);
-    check_derivatives(
-        &JUMP,
-        &request(&z, &p, Sensitivity::None),
-        &[0, 1, 2],
-        1e-10,
-    );
+    check_derivatives(&JUMP, &request(&z, &p, Sensitivity::None), &[0, 1, 2], 1e-10);
 }
 
 #[test]
@@ -192,17 +126,9 @@ fn a_double_crossing_inside_one_step_is_found() {
 #[test]
 fn a_touch_is_reported_and_a_near_miss_is_not() {
     let touch = completed(&DIP, &request(&[0.0], &[0.0], Sensitivity::Coordinates));
-    assert!(
-        matches!(touch.warnings[..], [Warning::Grazing { transition: 1, .. }]),
-        "{:?}",
-        touch.warnings
-    );
+    assert!(matches!(touch.warnings[..], [Warning::Grazing { transition: 1, .. }]), "{:?}", touch.warnings);
     let flat = completed(&DIP, &request(&[0.0], &[1e-12], Sensitivity::Coordinates));
-    assert!(
-        flat.warnings
-            .iter()
-            .any(|w| matches!(w, Warning::Grazing { transition: 1, .. }))
-    );
+    assert!(flat.warnings.iter().any(|w| matches!(w, Warning::Grazing { transition: 1, .. })));
     let miss = completed(&DIP, &request(&[0.0], &[-1e-3], Sensitivity::Coordinates));
     assert!(miss.warnings.is_empty());
     assert_eq!(miss.events.len(), 1);
@@ -213,29 +139,12 @@ fn ties_are_reported_and_the_first_of_the_spec_is_taken() {
     let r = completed(&TWINS, &request(&[0.1], &[0.0], Sensitivity::Coordinates));
     assert_eq!(r.events[0].transition, 1);
     assert_abs_diff_eq!(r.coordinates[0], 0.0, epsilon = 1e-15);
-    assert!(
-        matches!(
-            r.warnings[..],
-            [Warning::Tie {
-                taken: 1,
-                other: 2,
-                ..
-            }]
-        ),
-        "{:?}",
-        r.warnings
-    );
+    assert!(matches!(r.warnings[..], [Warning::Tie { taken: 1, other: 2, .. }]), "{:?}", r.warnings);
     let apart = completed(&TWINS, &request(&[0.1], &[1e-6], Sensitivity::Coordinates));
     assert!(apart.warnings.is_empty());
     // Now the second comes first, and its reset leads away for longer than the time limit.
-    let accuracy = Accuracy {
-        time_limit: 3.0,
-        ..Accuracy::default()
-    };
-    let base = MapRequest {
-        accuracy,
-        ..request(&[0.1], &[-1e-6], Sensitivity::Coordinates)
-    };
+    let accuracy = Accuracy { time_limit: 3.0, ..Accuracy::default() };
+    let base = MapRequest { accuracy, ..request(&[0.1], &[-1e-6], Sensitivity::Coordinates) };
     assert_eq!(stopped(&TWINS, &base).reason, StopReason::NoEvent);
 }
 
@@ -271,33 +180,13 @@ fn wrong_requests_are_errors() {
     let nan = BALL.evaluate(&request(&[f64::NAN], &p, Sensitivity::None));
     assert!(matches!(nan, Err(RequestError::NotFinite { index: 0, .. })));
     let short = BALL.evaluate(&request(&[], &p, Sensitivity::None));
-    assert!(matches!(
-        short,
-        Err(RequestError::Length {
-            expected: 1,
-            got: 0,
-            ..
-        })
-    ));
-    let far = BALL.evaluate(&request(
-        &[1.0],
-        &p,
-        Sensitivity::CoordinatesAndParameters(&[2]),
-    ));
+    assert!(matches!(short, Err(RequestError::Length { expected: 1, got: 0, .. })));
+    let far = BALL.evaluate(&request(&[1.0], &p, Sensitivity::CoordinatesAndParameters(&[2])));
     assert!(matches!(far, Err(RequestError::Length { .. })));
-    let accuracy = Accuracy {
-        absolute: f64::NAN,
-        ..Accuracy::default()
-    };
-    let bad = BALL.evaluate(&MapRequest {
-        accuracy,
-        ..request(&[1.0], &p, Sensitivity::None)
-    });
+    let accuracy = Accuracy { absolute: f64::NAN, ..Accuracy::default() };
+    let bad = BALL.evaluate(&MapRequest { accuracy, ..request(&[1.0], &p, Sensitivity::None) });
     assert!(matches!(bad, Err(RequestError::Accuracy(_))));
-    let none = BALL.evaluate(&MapRequest {
-        period: 0,
-        ..request(&[1.0], &p, Sensitivity::None)
-    });
+    let none = BALL.evaluate(&MapRequest { period: 0, ..request(&[1.0], &p, Sensitivity::None) });
     assert!(matches!(none, Err(RequestError::Accuracy(_))));
 }
 
@@ -306,39 +195,15 @@ fn many_columns_in_several_passes_agree_with_one() {
     let p = [9.81, 0.8];
     let chosen: Vec<usize> = (0..30).map(|i| i % 2).collect();
     let many = Sensitivity::CoordinatesAndParameters(&chosen);
-    let r = completed(
-        &BALL,
-        &MapRequest {
-            measures: true,
-            ..request(&[3.0], &p, many)
-        },
-    );
-    let one = completed(
-        &BALL,
-        &MapRequest {
-            measures: true,
-            ..request(&[3.0], &p, ALL)
-        },
-    );
+    let r = completed(&BALL, &MapRequest { measures: true, ..request(&[3.0], &p, many) });
+    let one = completed(&BALL, &MapRequest { measures: true, ..request(&[3.0], &p, ALL) });
     assert_eq!(r.jacobian.ncols(), 31);
     for column in 1..31 {
         let same = if column % 2 == 1 { 1 } else { 2 };
-        assert_abs_diff_eq!(
-            r.jacobian[(0, column)],
-            one.jacobian[(0, same)],
-            epsilon = 1e-13
-        );
-        assert_abs_diff_eq!(
-            r.duration_gradient[column],
-            one.duration_gradient[same],
-            epsilon = 1e-13
-        );
+        assert_abs_diff_eq!(r.jacobian[(0, column)], one.jacobian[(0, same)], epsilon = 1e-13);
+        assert_abs_diff_eq!(r.duration_gradient[column], one.duration_gradient[same], epsilon = 1e-13);
         for m in 0..r.measures.len() {
-            assert_abs_diff_eq!(
-                r.measures_jacobian[(m, column)],
-                one.measures_jacobian[(m, same)],
-                epsilon = 1e-12
-            );
+            assert_abs_diff_eq!(r.measures_jacobian[(m, column)], one.measures_jacobian[(m, same)], epsilon = 1e-12);
         }
     }
 }

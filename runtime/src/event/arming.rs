@@ -22,30 +22,18 @@ pub(crate) struct Start {
 /// after a short time d.
 pub(crate) fn arm(reading: &Reading, typical: f64, ahead: &impl Fn(f64) -> f64) -> Start {
     if reading.value.abs() > reading.rounding {
-        return Start {
-            side: Side::of(reading.value),
-            tangent: false,
-        };
+        return Start { side: Side::of(reading.value), tangent: false };
     }
     if (reading.rate * typical).abs() > reading.rounding {
-        return Start {
-            side: Side::of(reading.rate),
-            tangent: false,
-        };
+        return Start { side: Side::of(reading.rate), tangent: false };
     }
     for fraction in LOOK_AHEAD {
         let value = ahead(fraction * typical);
         if value.abs() > reading.rounding {
-            return Start {
-                side: Side::of(value),
-                tangent: true,
-            };
+            return Start { side: Side::of(value), tangent: true };
         }
     }
-    Start {
-        side: Side::Unknown,
-        tangent: true,
-    }
+    Start { side: Side::Unknown, tangent: true }
 }
 
 /// Whether a segment that starts so ends at once: it stands on the guard, with no rate, and turns the way that fires.

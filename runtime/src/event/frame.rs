@@ -28,22 +28,12 @@ impl<'a, const P: usize> Frame<'a, P> {
     /// The environment at `tau`.
     #[inline(always)]
     pub(crate) fn env(&self, tau: f64) -> Env<'a, f64, P> {
-        Env {
-            tau,
-            t: self.start + tau,
-            p: self.p,
-            memory: self.memory,
-            branch: self.branch,
-        }
+        Env { tau, t: self.start + tau, p: self.p, memory: self.memory, branch: self.branch }
     }
 
     /// The flow.
     #[inline]
-    pub(crate) fn flow<M: Model<N, P, Q>, const N: usize, const Q: usize>(
-        &self,
-        tau: f64,
-        x: &[f64; N],
-    ) -> [f64; N] {
+    pub(crate) fn flow<M: Model<N, P, Q>, const N: usize, const Q: usize>(&self, tau: f64, x: &[f64; N]) -> [f64; N] {
         M::flow(self.mode, x, &self.env(tau))
     }
 
@@ -67,12 +57,7 @@ impl<'a, const P: usize> Frame<'a, P> {
         rate: &[f64; N],
         h: f64,
     ) -> [f64; N] {
-        let bundle = |x: [f64; N]| Bundle::<N, 0, 0> {
-            x,
-            q: [],
-            dx: [],
-            dq: [],
-        };
+        let bundle = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };
         let mut k: Stages<Bundle<N, 0, 0>> = [bundle(*rate); 12];
         let rates = |tau: f64, y: &Bundle<N, 0, 0>| bundle(self.flow::<M, N, Q>(tau, &y.x));
         attempt(&rates, tau, h, &bundle(*x), &mut k).x

@@ -33,11 +33,7 @@ pub(crate) fn locate(
         }
         // A bracket from the dense output may miss by its error: Newton may leave it by as much, but no further.
         let slack = 1e-6 * (high - low);
-        h = if newton > low - slack && newton < high + slack {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
+        h = if newton > low - slack && newton < high + slack { newton } else { 0.5 * (low + high) };
     }
     (h, ITERATIONS)
 }

@@ -16,9 +16,7 @@ pub(crate) fn by_sign<M: Model<N, P, Q>, const N: usize, const P: usize, const Q
     x: &[f64; N],
 ) -> Vec<bool> {
     let mut branch = frame.branch.to_vec();
-    settle(&mut branch, switches, |branch, i| {
-        M::switch(i, x, &Frame { branch, ..frame }.env(tau)) >= 0.0
-    });
+    settle(&mut branch, switches, |branch, i| M::switch(i, x, &Frame { branch, ..frame }.env(tau)) >= 0.0);
     branch
 }
 

@@ -70,19 +70,10 @@ pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     typical: f64,
     previous: &[Watched],
 ) -> Result<Vec<Watched>, StopReason> {
-    let guards = M::INFO
-        .transitions
-        .iter()
-        .enumerate()
-        .filter(|(_, t)| t.from == frame.mode);
+    let guards = M::INFO.transitions.iter().enumerate().filter(|(_, t)| t.from == frame.mode);
     let guards = guards.map(|(i, t)| (Surface::Transition(i), t.direction));
-    let switches = M::INFO
-        .modes
-        .get(frame.mode)
-        .map_or(&[][..], |m| m.switches);
-    let switches = switches
-        .iter()
-        .map(|i| (Surface::Switch(*i), Direction::Either));
+    let switches = M::INFO.modes.get(frame.mode).map_or(&[][..], |m| m.switches);
+    let switches = switches.iter().map(|i| (Surface::Switch(*i), Direction::Either));
     let mut watched = Vec::new();
     for (surface, direction) in guards.chain(switches) {
         let reading = frame.read::<M, N, Q>(surface, tau, x);
@@ -103,15 +94,7 @@ pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
         };
         let largest = kept.map_or(0.0, |k| k.largest).max(reading.value.abs());
         let fastest = kept.map_or(0.0, |k| k.fastest).max(reading.rate.abs());
-        watched.push(Watched {
-            surface,
-            direction,
-            side,
-            start: reading,
-            end: reading,
-            largest,
-            fastest,
-        });
+        watched.push(Watched { surface, direction, side, start: reading, end: reading, largest, fastest });
     }
     Ok(watched)
 }
@@ -129,58 +112,28 @@ pub(crate) fn first_events<M: Model<N, P, Q>, const N: usize, const P: usize, co
     let dense = Dense::new(step, &|tau, x| frame.flow::<M, N, Q>(tau, x));
     statistics.evaluations += 3;
     let mut found = Vec::new();
-    for (i, w) in watched
-        .iter()
-        .enumerate()
-        .filter(|(_, w)| w.suspicious(step.h))
-    {
+    for (i, w) in watched.iter().enumerate().filter(|(_, w)| w.suspicious(step.h)) {
         let on_dense = |u: f64| {
-            let x = if w.clock_only() {
-                step.start.x
-            } else {
-                dense.at(u)
-            };
+            let x = if w.clock_only() { step.start.x } else { dense.at(u) };
             frame.read::<M, N, Q>(w.surface, step.tau + u * step.h, &x)
         };
         let largest = w.largest.max(w.end.value.abs());
         let ends = (&w.start, &w.end, step.h);
-        match passage(
-            w.side,
-            w.direction,
-            ends,
-            largest,
-            &|u| on_dense(u).value,
-            &|u| on_dense(u).rate,
-        ) {
-            Some(Passage::Crossing {
-                low,
-                high,
-                at,
-                from,
-            }) => {
+        match passage(w.side, w.direction, ends, largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
+            Some(Passage::Crossing { low, high, at, from }) => {
                 let bracket = (low * step.h, high * step.h);
-                let (h, last) =
-                    exact::<M, N, P, Q>(frame, step, w, bracket, at * step.h, from, statistics);
+                let (h, last) = exact::<M, N, P, Q>(frame, step, w, bracket, at * step.h, from, statistics);
                 if !enabled::<M, N, P, Q>(frame, step, w.surface, h) {
                     continue;
                 }
                 let tau = step.tau + h;
-                let uncertainty = 8.0 * f64::EPSILON * tau
-                    + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
-                found.push(Found {
-                    watched: i,
-                    h,
-                    uncertainty: uncertainty.min(1e-9 * tau),
-                });
+                let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
+                found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau) });
             }
             Some(Passage::Touch { at }) => {
                 if let Surface::Transition(transition) = w.surface {
                     let time = frame.start + step.tau + at * step.h;
-                    warnings.push(Warning::Grazing {
-                        transition,
-                        time,
-                        transversality: on_dense(at).rate,
-                    });
+                    warnings.push(Warning::Grazing { transition, time, transversality: on_dense(at).rate });
                 }
             }
             None => {}
@@ -207,17 +160,8 @@ fn exact<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     let last = core::cell::Cell::new(watched.end);
     let reading = |h: f64| {
         let tau = step.tau + h;
-        let x = if watched.clock_only() {
-            step.start.x
-        } else {
-            frame.restep::<M, N, Q>(step, h)
-        };
-        let reading = read::<M, N, P, Q>(
-            watched.surface,
-            &x,
-            &frame.flow::<M, N, Q>(tau, &x),
-            &frame.env(tau),
-        );
+        let x = if watched.clock_only() { step.start.x } else { frame.restep::<M, N, Q>(step, h) };
+        let reading = read::<M, N, P, Q>(watched.surface, &x, &frame.flow::<M, N, Q>(tau, &x), &frame.env(tau));
         last.set(reading);
         reading
     };

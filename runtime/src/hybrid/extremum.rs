@@ -14,8 +14,7 @@ use crate::model::Model;
 use crate::ode::Dense;
 use crate::sensitivity::dot;
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
-    Run<'_, M, R, N, P, Q, W, C>
+impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
 where
     M: Model<N, P, Q>,
     R: Rates<M, N, P, Q, W, C>,
@@ -30,23 +29,10 @@ where
     pub(crate) fn observe_boundary(&mut self, place: &Place<N, C>) {
         let (segment, x, tau) = (&self.segment, &self.step.start.x, self.step.tau);
         for extremum in &mut self.functionals.extrema {
-            let candidate = observe::<M, N, P, Q, C>(
-                extremum.observable,
-                segment.mode,
-                x,
-                &segment.env(tau),
-                |g, c| {
-                    along(
-                        g,
-                        Variation {
-                            dx: &place.dx[c],
-                            dp: &segment.dp[c],
-                            dtau: place.dtau[c],
-                            dt: place.dt[c],
-                        },
-                    )
-                },
-            );
+            let candidate =
+                observe::<M, N, P, Q, C>(extremum.observable, segment.mode, x, &segment.env(tau), |g, c| {
+                    along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: place.dtau[c], dt: place.dt[c] })
+                });
             extremum.offer(candidate);
         }
     }
@@ -56,12 +42,8 @@ where
         self.observe_boundary(place);
         for e in 0..self.functionals.extrema.len() {
             let extremum = self.functionals.extrema[e];
-            let (value, rate) = self.slope(
-                extremum.observable,
-                self.step.tau,
-                &self.step.start.x,
-                &self.step.stages[0].x,
-            );
+            let (value, rate) =
+                self.slope(extremum.observable, self.step.tau, &self.step.start.x, &self.step.stages[0].x);
             self.functionals.extrema[e].last = (extremum.sense * value, extremum.sense * rate);
         }
     }
@@ -78,16 +60,9 @@ where
             let Some(bracket) = bracket(start, end, self.step.h) else {
                 continue;
             };
-            let better_than = extremum
-                .best
-                .map_or(f64::NEG_INFINITY, |best| sense * best.value);
+            let better_than = extremum.best.map_or(f64::NEG_INFINITY, |best| sense * best.value);
             let better_than = better_than - 1e-6 * (start.0.abs() + end.0.abs());
-            let peak = Peak {
-                observable: o,
-                sense,
-                bracket,
-                better_than,
-            };
+            let peak = Peak { observable: o, sense, bracket, better_than };
             let step = state_step(&self.step);
             let found = peak.find::<M, N, P, Q>(self.segment.frame(), &step, (start.1, end.1));
             self.statistics.evaluations += 3;
@@ -106,15 +81,7 @@ where
         let mut k = self.step.stages;
         let y = Self::attempt(segment, self.step.tau, h, &self.step.start, &mut k);
         observe::<M, N, P, Q, C>(observable, segment.mode, &y.x, &segment.env(tau), |g, c| {
-            along(
-                g,
-                Variation {
-                    dx: &y.dx[c],
-                    dp: &segment.dp[c],
-                    dtau: 0.0,
-                    dt: segment.dstart[c],
-                },
-            )
+            along(g, Variation { dx: &y.dx[c], dp: &segment.dp[c], dtau: 0.0, dt: segment.dstart[c] })
         })
     }
 }
@@ -162,12 +129,7 @@ impl Peak {
             return None;
         }
         let u = root(rate, a, ra, b, rb);
-        let value = M::observable(
-            self.observable,
-            frame.mode,
-            &dense.at(u),
-            &frame.env(step.tau + u * step.h),
-        );
+        let value = M::observable(self.observable, frame.mode, &dense.at(u), &frame.env(step.tau + u * step.h));
         // Written so that NaN is looked at.
         if self.sense * value < self.better_than {
             return None;
@@ -177,11 +139,7 @@ impl Peak {
         let h = u * step.h;
         let correction = rate_of(step.tau + h, &frame.restep::<M, N, Q>(step, h)) / bend;
         // The correction is of the size of the dense output's error; anything else means that there is no bend.
-        Some(if correction.abs() <= 1e-3 * step.h {
-            h - correction
-        } else {
-            h
-        })
+        Some(if correction.abs() <= 1e-3 * step.h { h - correction } else { h })
     }
 }
 
@@ -191,11 +149,7 @@ fn bracket((v0, r0): (f64, f64), (v1, r1): (f64, f64), h: f64) -> Option<Bracket
         return Some(Bracket::Whole);
     }
     let inner = inner_turn((v0, r0), (v1, r1), h)?;
-    Some(if r0 > 0.0 {
-        Bracket::Until(inner)
-    } else {
-        Bracket::From(inner)
-    })
+    Some(if r0 > 0.0 { Bracket::Until(inner) } else { Bracket::From(inner) })
 }
 
 /// Where the rate of the cubic through values and rates at both ends is smallest or largest, if it has a zero there that

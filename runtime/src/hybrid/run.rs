@@ -15,16 +15,7 @@ use core::marker::PhantomData;
 const MOST_REJECTIONS: usize = 80;
 
 /// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
-pub(crate) struct Run<
-    'a,
-    M,
-    R,
-    const N: usize,
-    const P: usize,
-    const Q: usize,
-    const W: usize,
-    const C: usize,
-> {
+pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> {
     /// How accurately and how far.
     pub(crate) accuracy: Accuracy,
     /// What is constant in the segment.
@@ -49,8 +40,6 @@ pub(crate) struct Run<
     pub(crate) deadline: f64,
     /// Events in a row that followed almost at once.
     pub(crate) hasty: usize,
-    /// Where the last value that was not finite was met [s].
-    pub(crate) not_finite_at: f64,
     pub(crate) kind: PhantomData<(M, R)>,
 }
 
@@ -61,33 +50,13 @@ where
     R: Rates<M, N, P, Q, W, C>,
 {
     /// A run that has not started.
-    pub(crate) fn new(
-        accuracy: Accuracy,
-        p: &'a [f64; P],
-        dp: [[f64; P]; C],
-        functionals: Functionals<C>,
-    ) -> Self {
+    pub(crate) fn new(accuracy: Accuracy, p: &'a [f64; P], dp: [[f64; P]; C], functionals: Functionals<C>) -> Self {
         let zero = Bundle::ZERO;
-        let step = Step {
-            tau: 0.0,
-            h: 0.0,
-            start: zero,
-            stages: [zero; 12],
-            end: zero,
-            end_rates: zero,
-        };
+        let step = Step { tau: 0.0, h: 0.0, start: zero, stages: [zero; 12], end: zero, end_rates: zero };
         let (memory, branch) = (Vec::new(), vec![false; M::INFO.switches.len()]);
         Self {
             accuracy,
-            segment: Segment {
-                mode: 0,
-                start: 0.0,
-                p,
-                memory,
-                branch,
-                dp,
-                dstart: [0.0; C],
-            },
+            segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C] },
             step,
             controller: Controller::default(),
             h: 0.0,
@@ -98,17 +67,13 @@ where
             statistics: Statistics::default(),
             deadline: accuracy.time_limit,
             hasty: 0,
-            not_finite_at: f64::INFINITY,
             kind: PhantomData,
         }
     }
 
     /// Tolerance of the local error.
     pub(crate) fn tolerance(&self) -> Tolerance {
-        Tolerance {
-            relative: self.accuracy.relative,
-            absolute: self.accuracy.absolute,
-        }
+        Tolerance { relative: self.accuracy.relative, absolute: self.accuracy.absolute }
     }
 
     /// Time since the start of the run.
@@ -129,18 +94,11 @@ where
                 return Err(StopReason::StepLimit);
             }
             let h = self.h.min(rest);
-            // Written so that NaN stops, too.
-            if !(h > 2.0 * f64::EPSILON * self.step.tau) {
-                return Err(failure);
+            if h <= 2.0 * f64::EPSILON * self.step.tau || h.is_nan() || h == 0.0 {
+                break;
             }
             self.try_step(h);
-            let mut size = error(
-                h,
-                &self.step.start,
-                &self.step.end,
-                &self.step.stages,
-                tolerance,
-            );
+            let mut size = error(h, &self.step.start, &self.step.end, &self.step.stages, tolerance);
             if size <= 1.0 && !self.finish_step() {
                 size = f64::NAN;
             }
@@ -150,30 +108,27 @@ where
                 self.statistics.steps += 1;
                 return Ok(());
             }
-            if !size.is_finite() {
-                self.not_finite_at = self.time() + h;
-            }
-            // Just before the edge of the domain the error control may ask for small steps first.
-            let near = self.not_finite_at - self.time() <= 1e-6 * self.time().max(h);
-            failure = if near {
-                StopReason::NotFinite
-            } else {
-                StopReason::StepTooSmall
-            };
+            failure = if size.is_finite() { StopReason::StepTooSmall } else { StopReason::NotFinite };
             self.statistics.rejected += 1;
         }
-        Err(failure)
+        Err(if self.domain_ends() { StopReason::NotFinite } else { failure })
+    }
+
+    /// Whether the flow is not defined a short way ahead along its tangent. At the edge of a domain (a square root near
+    /// zero) the error control alone asks for ever smaller steps that all stay inside.
+    fn domain_ends(&self) -> bool {
+        let ahead = 1e-6 * self.time();
+        let mut x = self.step.start.x;
+        for i in 0..N {
+            x[i] += ahead * self.step.stages[0].x[i];
+        }
+        let flow = self.segment.frame().flow::<M, N, Q>(self.step.tau + ahead, &x);
+        !flow.iter().all(|v| v.is_finite())
     }
 
     fn try_step(&mut self, h: f64) {
         self.step.h = h;
-        self.step.end = Self::attempt(
-            &self.segment,
-            self.step.tau,
-            h,
-            &self.step.start,
-            &mut self.step.stages,
-        );
+        self.step.end = Self::attempt(&self.segment, self.step.tau, h, &self.step.start, &mut self.step.stages);
         self.statistics.evaluations += 11;
     }
 
@@ -186,13 +141,7 @@ where
         start: &Bundle<N, W, C>,
         stages: &mut Stages<Bundle<N, W, C>>,
     ) -> Bundle<N, W, C> {
-        attempt(
-            &|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y),
-            tau,
-            h,
-            start,
-            stages,
-        )
+        attempt(&|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y), tau, h, start, stages)
     }
 
     /// Flow and surfaces at the end of the step; false when any is not finite.

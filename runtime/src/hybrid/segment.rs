@@ -7,8 +7,7 @@ use crate::model::Model;
 use crate::ode::{Bundle, Step, first_step};
 use crate::return_map::StopReason;
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
-    Run<'_, M, R, N, P, Q, W, C>
+impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
 where
     M: Model<N, P, Q>,
     R: Rates<M, N, P, Q, W, C>,
@@ -23,38 +22,19 @@ where
         if switched.is_none() {
             self.watched.clear();
             if !mode.switches.is_empty() {
-                self.segment.branch =
-                    selectors::by_sign::<M, N, P, Q>(self.segment.frame(), mode.switches, tau, &x);
+                self.segment.branch = selectors::by_sign::<M, N, P, Q>(self.segment.frame(), mode.switches, tau, &x);
             }
         }
         self.guess_step()?;
-        let free: Vec<usize> = mode
-            .switches
-            .iter()
-            .copied()
-            .filter(|i| !switched.unwrap_or(&[]).contains(i))
-            .collect();
+        let free: Vec<usize> = mode.switches.iter().copied().filter(|i| !switched.unwrap_or(&[]).contains(i)).collect();
         if !free.is_empty() {
-            self.segment.branch = selectors::by_derivative::<M, N, P, Q>(
-                self.segment.frame(),
-                &free,
-                tau,
-                &x,
-                self.h,
-            );
+            self.segment.branch = selectors::by_derivative::<M, N, P, Q>(self.segment.frame(), &free, tau, &x, self.h);
         }
         self.watched = watch::<M, N, P, Q>(self.segment.frame(), tau, &x, self.h, &self.watched)?;
         self.step.stages[0] = R::rates(&self.segment, tau, &self.step.start);
         self.statistics.evaluations += 1;
-        let finite = x
-            .iter()
-            .chain(&self.step.stages[0].x)
-            .all(|v| v.is_finite());
-        if finite {
-            Ok(())
-        } else {
-            Err(StopReason::NotFinite)
-        }
+        let finite = x.iter().chain(&self.step.stages[0].x).all(|v| v.is_finite());
+        if finite { Ok(()) } else { Err(StopReason::NotFinite) }
     }
 
     /// A typical step size, if none is known.
@@ -69,14 +49,7 @@ where
             return Err(StopReason::NotFinite);
         }
         let flow = |tau: f64, x: &[f64; N]| frame.flow::<M, N, Q>(tau, x);
-        self.h = first_step(
-            &flow,
-            tau,
-            x,
-            &rate,
-            self.tolerance(),
-            self.accuracy.time_limit,
-        );
+        self.h = first_step(&flow, tau, x, &rate, self.tolerance(), self.accuracy.time_limit);
         self.statistics.evaluations += 2;
         Ok(())
     }
@@ -86,15 +59,8 @@ where
     pub(crate) fn first_events(&mut self) -> Vec<Found> {
         let mut found = Vec::new();
         if self.watched.iter().any(|w| w.suspicious(self.step.h)) {
-            let (frame, step): (Frame<'_, P>, StateStep<N>) =
-                (self.segment.frame(), state_step(&self.step));
-            found = first_events::<M, N, P, Q>(
-                frame,
-                &step,
-                &self.watched,
-                &mut self.warnings,
-                &mut self.statistics,
-            );
+            let (frame, step): (Frame<'_, P>, StateStep<N>) = (self.segment.frame(), state_step(&self.step));
+            found = first_events::<M, N, P, Q>(frame, &step, &self.watched, &mut self.warnings, &mut self.statistics);
         }
         if found.is_empty() {
             self.watched.iter_mut().for_each(|w| w.move_on());
@@ -104,15 +70,8 @@ where
 }
 
 /// The part of a step that concerns the state alone.
-pub(crate) fn state_step<const N: usize, const W: usize, const C: usize>(
-    step: &Step<Bundle<N, W, C>>,
-) -> StateStep<N> {
-    let state = |b: &Bundle<N, W, C>| Bundle::<N, 0, 0> {
-        x: b.x,
-        q: [],
-        dx: [],
-        dq: [],
-    };
+pub(crate) fn state_step<const N: usize, const W: usize, const C: usize>(step: &Step<Bundle<N, W, C>>) -> StateStep<N> {
+    let state = |b: &Bundle<N, W, C>| Bundle::<N, 0, 0> { x: b.x, q: [], dx: [], dq: [] };
     Step {
         tau: step.tau,
         h: step.h,

@@ -1,9 +1,7 @@
 //! The ABI from plain equations, with derivatives by dual numbers.
 
 use core::marker::PhantomData;
-use gaitc_runtime::model::{
-    Env, Gradient, Integrated, Jacobian, Model, ModelInfo, ResidualJacobian,
-};
+use gaitc_runtime::model::{Env, Gradient, Integrated, Jacobian, Model, ModelInfo, ResidualJacobian};
 use gaitc_runtime::scalar::Scalar;
 use gaitc_runtime::sensitivity::Dual;
 
@@ -13,18 +11,11 @@ pub fn c<S: Scalar>(value: f64) -> S {
 }
 
 /// The equations of a model, without derivatives.
-pub trait Equations<const N: usize, const P: usize, const Q: usize>:
-    Copy + Default + Send + Sync + 'static
-{
+pub trait Equations<const N: usize, const P: usize, const Q: usize>: Copy + Default + Send + Sync + 'static {
     const INFO: &'static ModelInfo;
     fn flow<S: Scalar>(mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> [S; N];
     fn guard<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
-    fn reset<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-        memory: &mut [S],
-    ) -> [S; N];
+    fn reset<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>, memory: &mut [S]) -> [S; N];
     fn embed<S: Scalar>(z: &[S], p: &[S; P]) -> [S; N];
     fn integrands<S: Scalar>(_mode: usize, _x: &[S; N], _env: &Env<'_, S, P>) -> [S; Q] {
         [c(0.0); Q]
@@ -53,10 +44,7 @@ pub trait Equations<const N: usize, const P: usize, const Q: usize>:
     ) -> ([S; N], [[S; N]; C]) {
         let zero = [c(0.0); P];
         let columns = core::array::from_fn(|k| {
-            along(x, &dx[k], env, &zero, c(0.0), c(0.0), |x, env| {
-                Self::flow(mode, x, env)
-            })
-            .map(|d| d.derivative)
+            along(x, &dx[k], env, &zero, c(0.0), c(0.0), |x, env| Self::flow(mode, x, env)).map(|d| d.derivative)
         });
         (Self::flow(mode, x, env), columns)
     }
@@ -67,10 +55,7 @@ pub trait Equations<const N: usize, const P: usize, const Q: usize>:
 pub struct Auto<E>(PhantomData<E>);
 
 fn lift<S: Scalar, const L: usize>(value: &[S; L], derivative: &[S; L]) -> [Dual<S>; L] {
-    core::array::from_fn(|i| Dual {
-        value: value[i],
-        derivative: derivative[i],
-    })
+    core::array::from_fn(|i| Dual { value: value[i], derivative: derivative[i] })
 }
 
 /// Evaluates with dual numbers along one direction.
@@ -83,35 +68,10 @@ fn along<S: Scalar, R, const N: usize, const P: usize>(
     dt: S,
     f: impl Fn(&[Dual<S>; N], &Env<'_, Dual<S>, P>) -> R,
 ) -> R {
-    let memory: Vec<Dual<S>> = env
-        .memory
-        .iter()
-        .map(|m| Dual {
-            value: *m,
-            derivative: c(0.0),
-        })
-        .collect();
+    let memory: Vec<Dual<S>> = env.memory.iter().map(|m| Dual { value: *m, derivative: c(0.0) }).collect();
     let p = lift(env.p, dp);
-    let (tau, t) = (
-        Dual {
-            value: env.tau,
-            derivative: dtau,
-        },
-        Dual {
-            value: env.t,
-            derivative: dt,
-        },
-    );
-    f(
-        &lift(x, dx),
-        &Env {
-            tau,
-            t,
-            p: &p,
-            memory: &memory,
-            branch: env.branch,
-        },
-    )
+    let (tau, t) = (Dual { value: env.tau, derivative: dtau }, Dual { value: env.t, derivative: dt });
+    f(&lift(x, dx), &Env { tau, t, p: &p, memory: &memory, branch: env.branch })
 }
 
 fn unit<S: Scalar, const L: usize>(i: usize) -> [S; L] {
@@ -151,18 +111,10 @@ fn jacobian<S: Scalar, const N: usize, const P: usize>(
 
 /// An environment for functions of state and parameters only.
 fn bare<S: Scalar, const P: usize>(p: &[S; P]) -> Env<'_, S, P> {
-    Env {
-        tau: c(0.0),
-        t: c(0.0),
-        p,
-        memory: &[],
-        branch: &[],
-    }
+    Env { tau: c(0.0), t: c(0.0), p, memory: &[], branch: &[] }
 }
 
-impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Model<N, P, Q>
-    for Auto<E>
-{
+impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Model<N, P, Q> for Auto<E> {
     const INFO: &'static ModelInfo = E::INFO;
 
     fn flow<S: Scalar>(mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> [S; N] {
@@ -198,12 +150,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
             dflow[k] = f.map(|d| d.derivative);
             dintegrands[k] = i.map(|d| d.derivative);
         }
-        Integrated {
-            flow,
-            integrands,
-            dflow,
-            dintegrands,
-        }
+        Integrated { flow, integrands, dflow, dintegrands }
     }
     fn residual<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> [S; N] {
         let f = E::flow(mode, x, env);
@@ -219,54 +166,28 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         let minus = |v: [S; N]| v.map(|v| -v);
         let value = core::array::from_fn(|i| k[i] - j.value[i]);
         let dk = core::array::from_fn(unit);
-        ResidualJacobian {
-            value,
-            dx: j.dx.map(minus),
-            dk,
-            dp: j.dp.map(minus),
-            dtau: minus(j.dtau),
-            dt: minus(j.dt),
-        }
+        ResidualJacobian { value, dx: j.dx.map(minus), dk, dp: j.dp.map(minus), dtau: minus(j.dtau), dt: minus(j.dt) }
     }
     fn switch<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
         E::switch(index, x, env)
     }
-    fn switch_gradient<S: Scalar>(
-        index: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Gradient<S, N, P> {
+    fn switch_gradient<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P> {
         gradient(x, env, |x, env| E::switch(index, x, env))
     }
     fn guard<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
         E::guard(transition, x, env)
     }
-    fn guard_gradient<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Gradient<S, N, P> {
+    fn guard_gradient<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P> {
         gradient(x, env, |x, env| E::guard(transition, x, env))
     }
     fn when<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
         E::when(transition, x, env)
     }
-    fn reset<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-        memory: &mut [S],
-    ) -> [S; N] {
+    fn reset<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>, memory: &mut [S]) -> [S; N] {
         E::reset(transition, x, env, memory)
     }
-    fn reset_jacobian<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Jacobian<S, N, P> {
-        jacobian(x, env, |x, env| {
-            E::reset(transition, x, env, &mut env.memory.to_vec())
-        })
+    fn reset_jacobian<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> Jacobian<S, N, P> {
+        jacobian(x, env, |x, env| E::reset(transition, x, env, &mut env.memory.to_vec()))
     }
     fn embed<S: Scalar>(z: &[S], p: &[S; P]) -> [S; N] {
         E::embed(z, p)
@@ -277,10 +198,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
             let z: Vec<Dual<S>> = z
                 .iter()
                 .enumerate()
-                .map(|(k, v)| Dual {
-                    value: *v,
-                    derivative: c(if k == j { 1.0 } else { 0.0 }),
-                })
+                .map(|(k, v)| Dual { value: *v, derivative: c(if k == j { 1.0 } else { 0.0 }) })
                 .collect();
             E::embed(&z, &lift(p, dp)).map(|d| d.derivative)
         };
@@ -298,37 +216,22 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
     fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
         E::observable(index, mode, x, env)
     }
-    fn observable_gradient<S: Scalar>(
-        index: usize,
-        mode: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Gradient<S, N, P> {
+    fn observable_gradient<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P> {
         gradient(x, env, |x, env| E::observable(index, mode, x, env))
     }
     fn measures<S: Scalar>(functionals: &[S], p: &[S; P], out: &mut [S]) {
         E::measures(functionals, p, out);
     }
-    fn measures_jacobian<S: Scalar>(
-        functionals: &[S],
-        p: &[S; P],
-        dfunctionals: &mut [S],
-        dp: &mut [[S; P]],
-    ) {
+    fn measures_jacobian<S: Scalar>(functionals: &[S], p: &[S; P], dfunctionals: &mut [S], dp: &mut [[S; P]]) {
         let (m, f) = (dp.len(), functionals.len());
         for j in 0..f + P {
             let values: Vec<Dual<S>> = functionals
                 .iter()
                 .enumerate()
-                .map(|(k, v)| Dual {
-                    value: *v,
-                    derivative: c(if k == j { 1.0 } else { 0.0 }),
-                })
+                .map(|(k, v)| Dual { value: *v, derivative: c(if k == j { 1.0 } else { 0.0 }) })
                 .collect();
-            let p: [Dual<S>; P] = core::array::from_fn(|k| Dual {
-                value: p[k],
-                derivative: c(if k + f == j { 1.0 } else { 0.0 }),
-            });
+            let p: [Dual<S>; P] =
+                core::array::from_fn(|k| Dual { value: p[k], derivative: c(if k + f == j { 1.0 } else { 0.0 }) });
             let mut out = vec![c::<Dual<S>>(0.0); m];
             E::measures(&values, &p, &mut out);
             for i in 0..m {

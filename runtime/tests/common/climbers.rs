@@ -5,34 +5,19 @@
 use super::auto::{Auto, Equations, c};
 use core::f64::consts::PI;
 use gaitc_runtime::hybrid::Hybrid;
-use gaitc_runtime::model::{
-    Direction, Env, Functional, ModeInfo, ModelInfo, Quantity, TransitionInfo,
-};
+use gaitc_runtime::model::{Direction, Env, Functional, ModeInfo, ModelInfo, Quantity, TransitionInfo};
 use gaitc_runtime::scalar::Scalar;
 
 pub const fn quantity(name: &'static str) -> Quantity {
     Quantity { name, si: "1" }
 }
 
-const PARAMETERS: &[Quantity] = &[
-    quantity("l_s"),
-    quantity("l_b"),
-    quantity("g"),
-    quantity("psi"),
-    quantity("omega"),
-    quantity("m"),
-];
+const PARAMETERS: &[Quantity] =
+    &[quantity("l_s"), quantity("l_b"), quantity("g"), quantity("psi"), quantity("omega"), quantity("m")];
 
 /// Parameter values of the thesis at a sprawl angle in degrees.
 pub fn parameters(psi_degrees: f64) -> [f64; 6] {
-    [
-        0.13,
-        0.5,
-        9.81,
-        psi_degrees.to_radians(),
-        2.0 * PI * 3.0,
-        2.6,
-    ]
+    [0.13, 0.5, 9.81, psi_degrees.to_radians(), 2.0 * PI * 3.0, 2.6]
 }
 
 /// An empty description to fill in.
@@ -83,10 +68,7 @@ fn pendulum_variational<S: Scalar, const C: usize, const P: usize>(
     let (sin, cos) = (x[0].sin(), x[0].cos());
     let (pull, drag) = (-(env.p[2] * cos), -(v * inverse));
     let flow = [x[1] * inverse, drag * x[1] - env.p[2] * sin];
-    (
-        flow,
-        core::array::from_fn(|k| [dx[k][1] * inverse, pull * dx[k][0] + drag * dx[k][1]]),
-    )
+    (flow, core::array::from_fn(|k| [dx[k][1] * inverse, pull * dx[k][0] + drag * dx[k][1]]))
 }
 
 fn force<S: Scalar, const P: usize>(x: &[S; 2], env: &Env<'_, S, P>) -> S {
@@ -107,16 +89,8 @@ impl Equations<2, 6, 3> for PrescribedLength {
         parameters: PARAMETERS,
         states: &[quantity("q_theta"), quantity("p_theta")],
         memory: &["n"],
-        modes: &[ModeInfo {
-            name: "stance",
-            switches: &[0, 1, 2, 3],
-        }],
-        transitions: &[TransitionInfo {
-            name: "step",
-            from: 0,
-            to: 0,
-            direction: Direction::Falling,
-        }],
+        modes: &[ModeInfo { name: "stance", switches: &[0, 1, 2, 3] }],
+        transitions: &[TransitionInfo { name: "step", from: 0, to: 0, direction: Direction::Falling }],
         switches: &["tau <= pi/omega", "abs(v_x)", "abs(rho_a)", "max(power, 0)"],
         coordinates: &[0, 1],
         symmetric: true,
@@ -174,11 +148,7 @@ impl Equations<2, 6, 3> for PrescribedLength {
         let (sin, cos) = (x[0].sin(), x[0].cos());
         let v_x = v * sin + x[1] * cos;
         let power = -(force(x, env) * v);
-        [
-            -(v * cos) + x[1] * sin,
-            S::select(env.branch[1], v_x, -v_x),
-            S::select(env.branch[3], power, c(0.0)),
-        ]
+        [-(v * cos) + x[1] * sin, S::select(env.branch[1], v_x, -v_x), S::select(env.branch[3], power, c(0.0))]
     }
     fn switch<S: Scalar>(i: usize, x: &[S; 2], env: &Env<'_, S, 6>) -> S {
         let [_, v, _] = leg(env);
@@ -191,11 +161,7 @@ impl Equations<2, 6, 3> for PrescribedLength {
     }
     fn observable<S: Scalar>(i: usize, _: usize, x: &[S; 2], env: &Env<'_, S, 6>) -> S {
         let f = force(x, env);
-        if i == 0 {
-            S::select(env.branch[2], f, -f)
-        } else {
-            x[1]
-        }
+        if i == 0 { S::select(env.branch[2], f, -f) } else { x[1] }
     }
     fn measures<S: Scalar>(f: &[S], p: &[S; 6], out: &mut [S]) {
         out[0] = f[0];
@@ -221,16 +187,8 @@ impl Equations<2, 6, 0> for AngleSwitched {
         name: "angle_switched",
         parameters: PARAMETERS,
         states: &[quantity("q_theta"), quantity("p_theta")],
-        modes: &[ModeInfo {
-            name: "stance",
-            switches: &[0],
-        }],
-        transitions: &[TransitionInfo {
-            name: "step",
-            from: 0,
-            to: 0,
-            direction: Direction::Falling,
-        }],
+        modes: &[ModeInfo { name: "stance", switches: &[0] }],
+        transitions: &[TransitionInfo { name: "step", from: 0, to: 0, direction: Direction::Falling }],
         switches: &["tau <= pi/omega"],
         coordinates: &[1],
         symmetric: true,

@@ -10,9 +10,7 @@ pub mod auto;
 pub mod climbers;
 pub mod toys;
 
-use gaitc_runtime::return_map::{
-    Accuracy, MapOutcome, MapRequest, MapResult, ReturnMap, Sensitivity, Stop,
-};
+use gaitc_runtime::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, ReturnMap, Sensitivity, Stop};
 
 /// A request with the defaults that most tests use.
 pub fn request<'a>(z: &'a [f64], p: &'a [f64], sensitivity: Sensitivity<'a>) -> MapRequest<'a> {
@@ -44,12 +42,7 @@ pub fn stopped(map: &dyn ReturnMap, request: &MapRequest<'_>) -> Stop {
 }
 
 /// Compares all derivatives of a map (coordinates, duration, measures) with fourth-order central differences.
-pub fn check_derivatives(
-    map: &dyn ReturnMap,
-    base: &MapRequest<'_>,
-    parameters: &[usize],
-    tolerance: f64,
-) {
+pub fn check_derivatives(map: &dyn ReturnMap, base: &MapRequest<'_>, parameters: &[usize], tolerance: f64) {
     let exact_request = MapRequest {
         sensitivity: Sensitivity::CoordinatesAndParameters(parameters),
         measures: !map.info().measures.is_empty(),
@@ -65,23 +58,14 @@ pub fn check_derivatives(
             } else {
                 p[parameters[column - d]] += shift;
             }
-            let r = MapRequest {
-                coordinates: &z,
-                parameters: &p,
-                sensitivity: Sensitivity::None,
-                ..exact_request
-            };
+            let r = MapRequest { coordinates: &z, parameters: &p, sensitivity: Sensitivity::None, ..exact_request };
             let r = completed(map, &r);
             let mut all: Vec<f64> = r.coordinates.iter().copied().collect();
             all.push(r.duration);
             all.extend(r.measures.iter());
             all
         };
-        let size = if column < d {
-            base.coordinates[column]
-        } else {
-            base.parameters[parameters[column - d]]
-        };
+        let size = if column < d { base.coordinates[column] } else { base.parameters[parameters[column - d]] };
         let h = 3e-4 * size.abs().max(0.1);
         let (m2, m1, p1, p2) = (at(-2.0 * h), at(-h), at(h), at(2.0 * h));
         let mut exact_column: Vec<f64> = exact.jacobian.column(column).iter().copied().collect();

@@ -1,0 +1,3 @@
+//! Back ends: code from validated models.
+
+pub mod rust;

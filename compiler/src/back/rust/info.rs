@@ -1,0 +1,88 @@
+//! Names, units and structure of a model as a constant.
+
+use super::{Context, text};
+use crate::dimension::Dimension;
+use crate::ir::{Direction, FunctionalKind};
+use crate::valid::Reference;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// The static `INFO`.
+pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
+    let (model, facts) = (context.model(), context.validated.facts());
+    let name = &model.name;
+    let parameters = model.parameters.iter().map(|p| quantity(&p.name, p.dimension));
+    let states = model.states.iter().map(|s| quantity(&s.name, s.dimension));
+    let measures = model.measures.iter().map(|m| quantity(&m.name, m.dimension));
+    let memory = model.memory.iter().map(|m| &m.name);
+    let switches = model.switches.iter().map(|s| &s.text);
+    let modes = model.modes.iter().zip(&facts.mode_switches).map(|(mode, switches)| {
+        let name = &mode.name;
+        let switches = switches.iter().map(|&i| text::count(i));
+        quote!(model::ModeInfo { name: #name, switches: &[#(#switches),*] })
+    });
+    let transitions = model.transitions.iter().map(|t| {
+        let (name, from, to, direction) = (&t.name, text::count(t.from), text::count(t.to), direction(t.direction));
+        quote!(model::TransitionInfo { name: #name, from: #from, to: #to, direction: model::Direction::#direction })
+    });
+    let coordinates = model.section.iter().flat_map(|s| &s.coordinates).map(|&i| text::count(i));
+    let after = match &model.section {
+        Some(section) => {
+            let after = text::count(section.after);
+            quote!(::core::option::Option::Some(#after))
+        }
+        None => quote!(::core::option::Option::None),
+    };
+    let symmetric = model.section.as_ref().is_some_and(|s| s.symmetry.is_some());
+    let functionals = model.functionals.iter().zip(&facts.references).map(|(f, &r)| functional(f.kind, r));
+    let (uses_time, explicit) = (facts.uses_time, facts.explicit);
+    quote! {
+        /// Names, units and structure.
+        static INFO: model::ModelInfo = model::ModelInfo {
+            name: #name,
+            fingerprint: #fingerprint,
+            parameters: &[#(#parameters),*],
+            states: &[#(#states),*],
+            memory: &[#(#memory),*],
+            modes: &[#(#modes),*],
+            transitions: &[#(#transitions),*],
+            switches: &[#(#switches),*],
+            coordinates: &[#(#coordinates),*],
+            section_after: #after,
+            symmetric: #symmetric,
+            functionals: &[#(#functionals),*],
+            measures: &[#(#measures),*],
+            uses_time: #uses_time,
+            explicit: #explicit,
+        };
+    }
+}
+
+fn quantity(name: &str, dimension: Dimension) -> TokenStream {
+    let si = dimension.to_string();
+    quote!(model::Quantity { name: #name, si: #si })
+}
+
+fn direction(direction: Direction) -> proc_macro2::Ident {
+    match direction {
+        Direction::Falling => quote::format_ident!("Falling"),
+        Direction::Rising => quote::format_ident!("Rising"),
+        Direction::Either => quote::format_ident!("Either"),
+    }
+}
+
+fn functional(kind: FunctionalKind, reference: Reference) -> TokenStream {
+    let index = match reference {
+        Reference::Integral(i) | Reference::Observable(i) => text::count(i),
+        Reference::None => return quote!(model::Functional::Duration),
+    };
+    match kind {
+        FunctionalKind::Integral => quote!(model::Functional::Integral(#index)),
+        FunctionalKind::Mean => quote!(model::Functional::Mean(#index)),
+        FunctionalKind::Start => quote!(model::Functional::Start(#index)),
+        FunctionalKind::End => quote!(model::Functional::End(#index)),
+        FunctionalKind::Maximum => quote!(model::Functional::Maximum(#index)),
+        FunctionalKind::Minimum => quote!(model::Functional::Minimum(#index)),
+        FunctionalKind::Duration => quote!(model::Functional::Duration),
+    }
+}

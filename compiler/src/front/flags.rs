@@ -1,0 +1,167 @@
+//! Command-line flags in the language of specs: quantities, ranges, constraints and objectives.
+//!
+//! Every error is a [`FlagError`]: the diagnostics and the flag's text, which render like those of a spec, the wrong
+//! characters underlined.
+
+use super::lower::{Definitions, Lowering, Scope};
+use super::names::is_identifier;
+use super::parser::parse_expression;
+use super::quantity::Quantities;
+use super::spec::Equation;
+pub use super::suggest;
+use super::syntax::Expression;
+use super::text::Text;
+use crate::diagnostic::{Code, Diagnostic, render};
+use crate::dimension::Dimension;
+use crate::ir::{Constraint, Model, NodeId};
+use crate::source::{FileId, SourceMap, Span};
+use std::fmt;
+
+/// A flag that cannot be understood.
+#[derive(Clone, Debug)]
+pub struct FlagError {
+    /// What is wrong, at least one.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The flag's text.
+    pub sources: SourceMap,
+}
+
+impl FlagError {
+    /// For people, the wrong characters underlined; with ANSI colours if `color`.
+    pub fn render(&self, color: bool) -> String {
+        render(&self.diagnostics, &self.sources, color)
+    }
+}
+
+impl fmt::Display for FlagError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.render(false).trim_end())
+    }
+}
+
+impl std::error::Error for FlagError {}
+
+/// A flag's text being read.
+struct Flag {
+    sources: SourceMap,
+    text: Text,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Flag {
+    fn new(text: &str) -> Self {
+        let mut sources = SourceMap::default();
+        let file: FileId = sources.add("command line", text);
+        Self { sources, text: Text::whole_file(file, text), diagnostics: Vec::new() }
+    }
+
+    fn quantities(&mut self) -> Quantities<'_> {
+        Quantities { sources: &self.sources, diagnostics: &mut self.diagnostics }
+    }
+
+    fn finish<T>(self, result: Option<T>) -> Result<T, FlagError> {
+        let error = FlagError { diagnostics: self.diagnostics, sources: self.sources };
+        match result {
+            Some(result) if !error.diagnostics.iter().any(Diagnostic::is_error) => Ok(result),
+            _ => Err(error),
+        }
+    }
+
+    fn error<T>(mut self, code: Code, message: &str, span: Span, help: &str) -> Result<T, FlagError> {
+        self.diagnostics.push(Diagnostic::error(code, message).at(span, "").help(help));
+        self.finish(None)
+    }
+
+    /// Lowers the text as an expression over a model's measures and parameters.
+    fn lower<T>(
+        mut self,
+        expression: Result<Expression, Box<Diagnostic>>,
+        model: &mut Model,
+        lower: impl FnOnce(&mut Lowering<'_>, &Equation) -> Option<T>,
+    ) -> Result<T, FlagError> {
+        let expression = match expression {
+            Ok(expression) => expression,
+            Err(diagnostic) => {
+                self.diagnostics.push(*diagnostic);
+                return self.finish(None);
+            }
+        };
+        let equation = Equation { text: self.text.clone(), expression: Some(expression) };
+        let (scope, definitions) = (Scope::of_model(model), Definitions::default());
+        let mut lowering = Lowering::new(model, &scope, &definitions, &self.sources, &mut self.diagnostics);
+        let result = lower(&mut lowering, &equation);
+        self.finish(result)
+    }
+}
+
+/// Reads a quantity such as `25 deg`; its value in SI units.
+///
+/// # Errors
+/// When it is no quantity or has another dimension than `expected`.
+pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, FlagError> {
+    let mut flag = Flag::new(text);
+    let whole = flag.text.clone();
+    let value = flag.quantities().of(&whole, expected, "this quantity");
+    flag.finish(value)
+}
+
+/// Reads a range such as `0..200 N/m`; a unit at the end is that of both bounds. The bounds in SI units.
+///
+/// # Errors
+/// When it is no range, a bound has another dimension than `expected`, or the lower bound is above the upper one.
+pub fn parse_range(text: &str, expected: Dimension) -> Result<(f64, f64), FlagError> {
+    let mut flag = Flag::new(text);
+    let Some(dots) = text.find("..") else {
+        let span = flag.text.span;
+        return flag.error(Code::Syntax, "this is not a range", span, "write `LO..HI`, as in `0..200 N/m`");
+    };
+    let (lower, upper) = (flag.text.part(0..dots), flag.text.part(dots + 2..text.len()));
+    let span = flag.text.span;
+    let mut quantities = flag.quantities();
+    let range = quantities.sharing_unit(&lower, &upper).and_then(|(low, high)| {
+        let first = quantities.check(&low, lower.span, expected, "the lower bound");
+        let second = quantities.check(&high, upper.span, expected, "the upper bound");
+        first.and(second)?;
+        quantities.ordered(low.value, high.value, span, "the range")
+    });
+    flag.finish(range)
+}
+
+/// Splits `NAME=REST`.
+///
+/// # Errors
+/// When there is no `=` or what stands before it is no name.
+pub fn parse_assignment(text: &str) -> Result<(&str, &str), FlagError> {
+    let flag = Flag::new(text);
+    let span = flag.text.span;
+    let Some((name, rest)) = text.split_once('=') else {
+        return flag.error(Code::Syntax, "a `=` is missing", span, "write `NAME=VALUE`, as in `psi=\"25 deg\"`");
+    };
+    if !is_identifier(name.trim()) {
+        let span = flag.text.at(0..name.len());
+        return flag.error(Code::InvalidName, "what stands before `=` is no name", span, "write `NAME=VALUE`");
+    }
+    Ok((name.trim(), rest.trim()))
+}
+
+/// Reads a constraint such as `spectral_radius <= 0.95` over the measures and parameters of a model; its nodes are
+/// added to the model's graph.
+///
+/// # Errors
+/// When it is no constraint, or uses something else.
+pub fn parse_constraint(model: &mut Model, text: &str) -> Result<Constraint, FlagError> {
+    let flag = Flag::new(text);
+    let expression = super::parser::parse_constraint(&flag.text);
+    flag.lower(expression, model, |lowering, equation| lowering.constraint(equation))
+}
+
+/// Reads an objective such as `climb_speed` over the measures and parameters of a model; its node, which is added to
+/// the model's graph, and its dimension.
+///
+/// # Errors
+/// When it is no expression, or uses something else.
+pub fn parse_objective(model: &mut Model, text: &str) -> Result<(NodeId, Dimension), FlagError> {
+    let flag = Flag::new(text);
+    let expression = parse_expression(&flag.text);
+    flag.lower(expression, model, |lowering, equation| lowering.objective(equation))
+}

@@ -1,0 +1,234 @@
+//! Function calls: the functions of the language, functionals, and the spec's own functions, inlined where they are
+//! called.
+
+use super::branch::Extreme;
+use super::definitions::undefined_function;
+use super::expr::Operand;
+use super::lowering::{Context, Frame, Lowering};
+use super::scope::{Definition, Entity};
+use super::value::{Place, Uses, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::dimension::{Dimension, Exponent};
+use crate::front::names::{FUNCTIONALS, FUNCTIONS};
+use crate::front::syntax::{Call, Expr, ExprKind};
+use crate::ir::{Binary, Functional, FunctionalKind, Node, NodeId, Symbol, Unary};
+use crate::source::Span;
+
+impl Lowering<'_> {
+    pub(super) fn call(&mut self, call: &Call, span: Span, context: Context<'_>) -> Option<Value> {
+        if FUNCTIONALS.contains(&call.name.as_str()) {
+            return self.functional_call(call, context);
+        }
+        if let Some(&(name, count)) = FUNCTIONS.iter().find(|(name, _)| *name == call.name) {
+            self.count(call, count, span, context)?;
+            return self.built_in(name, call, span, context);
+        }
+        match self.scope.get(&call.name) {
+            Some(Definition { entity: Entity::Function(i), .. }) => self.inline(i, call, span, context),
+            Some(Definition { entity, .. }) => {
+                let message = format!("`{}` is {}, not a function", call.name, entity.kind());
+                let error = Diagnostic::error(Code::WrongKind, message).at(call.name_span, "");
+                self.report(error.help("write `*` before the parenthesis to multiply"), context);
+                None
+            }
+            None => {
+                self.report(undefined_function(&call.name, call.name_span, self.scope), context);
+                None
+            }
+        }
+    }
+
+    /// Checks the number of arguments.
+    fn count(&mut self, call: &Call, expected: usize, span: Span, context: Context<'_>) -> Option<()> {
+        let given = call.arguments.len();
+        if given == expected {
+            return Some(());
+        }
+        let plural = if expected == 1 { "" } else { "s" };
+        let message = format!("`{}` takes {expected} argument{plural}, not {given}", call.name);
+        self.report(Diagnostic::error(Code::Arguments, message).at(span, ""), context);
+        None
+    }
+
+    fn built_in(&mut self, name: &str, call: &Call, span: Span, context: Context<'_>) -> Option<Value> {
+        match (name, call.arguments.as_slice()) {
+            ("if", [condition, then, otherwise]) => self.if_(condition, then, otherwise, context),
+            ("d", [expr, variable]) => self.partial(expr, variable, span, context),
+            ("dot", _) => {
+                let message = "`dot(...)` is not supported yet";
+                let error = Diagnostic::error(Code::Unsupported, message).at(span, "");
+                self.report(error.help("write out the right-hand side of the flow"), context);
+                None
+            }
+            ("min" | "max" | "atan2", [a, b]) => {
+                let (left, right) = (self.expr(a, context), self.expr(b, context));
+                let (a, b) = (Operand { value: left?, span: a.span }, Operand { value: right?, span: b.span });
+                let dimension = self.same(a, b, &format!("`{name}`"), context)?;
+                match name {
+                    "min" => Some(self.extreme(Extreme::Smaller, a.value, b.value, dimension, span, context)),
+                    "max" => Some(self.extreme(Extreme::Larger, a.value, b.value, dimension, span, context)),
+                    _ => {
+                        let node = self.binary(Binary::Atan2, a.value.node, b.value.node);
+                        let uses = a.value.uses.and(b.value.uses);
+                        Some(Value { node, dimension: Some(Dimension::NONE), uses })
+                    }
+                }
+            }
+            (_, [argument]) => {
+                let value = self.expr(argument, context)?;
+                self.unary(name, Operand { value, span: argument.span }, span, context)
+            }
+            _ => None,
+        }
+    }
+
+    fn unary(&mut self, name: &str, a: Operand, span: Span, context: Context<'_>) -> Option<Value> {
+        match name {
+            "abs" => return Some(self.abs(a.value, span, context)),
+            "sign" => return Some(self.sign(a.value, span, context)),
+            "sqrt" => {
+                let node = self.model.graph.unary(Unary::Sqrt, a.value.node);
+                let half = Exponent { numerator: 1, denominator: 2 };
+                let dimension = match a.value.dimension {
+                    Some(dimension) => Some(self.in_range(dimension.pow(half), span, context)?),
+                    None => None,
+                };
+                return Some(Value { node, dimension, ..a.value });
+            }
+            _ => {}
+        }
+        let op = match name {
+            "sin" => Unary::Sin,
+            "cos" => Unary::Cos,
+            "tan" => Unary::Tan,
+            "asin" => Unary::Asin,
+            "acos" => Unary::Acos,
+            "atan" => Unary::Atan,
+            "sinh" => Unary::Sinh,
+            "cosh" => Unary::Cosh,
+            "tanh" => Unary::Tanh,
+            "asinh" => Unary::Asinh,
+            "acosh" => Unary::Acosh,
+            "atanh" => Unary::Atanh,
+            "exp" => Unary::Exp,
+            "log" => Unary::Log,
+            _ => return None,
+        };
+        self.dimensionless(a, &format!("the argument of `{name}`"), context)?;
+        let node = self.model.graph.unary(op, a.value.node);
+        Some(Value { node, dimension: Some(Dimension::NONE), ..a.value })
+    }
+
+    /// `d(expr, x)`: the partial derivative, all other symbols held.
+    fn partial(&mut self, expr: &Expr, variable: &Expr, span: Span, context: Context<'_>) -> Option<Value> {
+        let value = self.expr(expr, context);
+        let variable_symbol = self.variable(variable, context);
+        let (value, (symbol, by)) = (value?, variable_symbol?);
+        if value.uses.any(Uses::RESULT) {
+            let message = "what is known only after a map has no derivative here";
+            self.report(Diagnostic::error(Code::NotAvailable, message).at(expr.span, ""), context);
+            return None;
+        }
+        let dimension = match value.dimension {
+            Some(dimension) => Some(self.in_range(dimension.div(by), span, context)?),
+            None => None,
+        };
+        if !self.model.graph.depends(&[value.node], |other| other == symbol) {
+            let message = format!("{} does not depend on {}", self.quote(expr.span), self.quote(variable.span));
+            let warning = Diagnostic::warning(Code::ZeroDerivative, message).at(span, "this derivative is always 0");
+            self.report(warning, context);
+            return Some(self.constant(0.0, dimension));
+        }
+        let node = self.model.graph.add(Node::Partial(value.node, symbol));
+        Some(Value { node, dimension, ..value })
+    }
+
+    /// What to differentiate with respect to, and its dimension.
+    fn variable(&mut self, variable: &Expr, context: Context<'_>) -> Option<(Symbol, Dimension)> {
+        let name = match &variable.kind {
+            ExprKind::Name(name) => name.as_str(),
+            _ => "",
+        };
+        let argument = context.frame.is_some_and(|frame| frame.names.iter().any(|argument| argument.value == name));
+        let definition = self.scope.get(name).filter(|_| !argument);
+        match (name, definition) {
+            ("tau", _) => return Some((Symbol::Tau, Dimension::TIME)),
+            ("t", _) => return Some((Symbol::Time, Dimension::TIME)),
+            (_, Some(Definition { entity: Entity::State(i), dimension, .. })) => {
+                return Some((Symbol::State(i), dimension?));
+            }
+            (_, Some(Definition { entity: Entity::Parameter(i), dimension, .. })) => {
+                return Some((Symbol::Parameter(i), dimension?));
+            }
+            _ => {}
+        }
+        let message = format!("{} is not a variable to differentiate with respect to", self.quote(variable.span));
+        let error = Diagnostic::error(Code::WithRespectTo, message).at(variable.span, "");
+        self.report(error.help("write the name of a state or parameter, `tau` or `t`"), context);
+        None
+    }
+
+    fn functional_call(&mut self, call: &Call, context: Context<'_>) -> Option<Value> {
+        self.count(call, 1, call.name_span, context)?;
+        match context.place {
+            Place::Measure => {}
+            Place::Functional => {
+                let message = format!("`{}` stands inside another functional", call.name);
+                let error = Diagnostic::error(Code::NotAvailable, message).at(call.name_span, "");
+                self.report(error.help("a functional takes what changes along the motion"), context);
+                return None;
+            }
+            _ => {
+                let help = "define a measure with it; problems use measures by name";
+                return self.only_in("measures", &call.name, call.name_span, help, context);
+            }
+        }
+        let argument = self.expr(call.arguments.first()?, context.with_place(Place::Functional))?;
+        let (kind, dimension) = match call.name.as_str() {
+            "start" => (FunctionalKind::Start, argument.dimension),
+            "end" => (FunctionalKind::End, argument.dimension),
+            "mean" => (FunctionalKind::Mean, argument.dimension),
+            "cycle_max" => (FunctionalKind::Maximum, argument.dimension),
+            "cycle_min" => (FunctionalKind::Minimum, argument.dimension),
+            _ => {
+                let time = argument.dimension.map(|dimension| dimension.mul(Dimension::TIME));
+                let time = match time {
+                    Some(dimension) => Some(self.in_range(dimension, call.name_span, context)?),
+                    None => None,
+                };
+                (FunctionalKind::Integral, time)
+            }
+        };
+        Some(self.functional(kind, argument.node, dimension))
+    }
+
+    /// The functional of an expression; one that is there already is shared.
+    pub(super) fn functional(&mut self, kind: FunctionalKind, expr: NodeId, dimension: Option<Dimension>) -> Value {
+        let functionals = &mut self.model.functionals;
+        let index = *self.functionals.entry((kind, expr)).or_insert_with(|| {
+            functionals.push(Functional { kind, expr });
+            functionals.len() - 1
+        });
+        Value { node: self.model.graph.symbol(Symbol::Functional(index)), dimension, uses: Uses::FUNCTIONAL }
+    }
+
+    /// A function of the spec, its body lowered with the arguments in place.
+    fn inline(&mut self, index: usize, call: &Call, span: Span, context: Context<'_>) -> Option<Value> {
+        let definitions = self.definitions;
+        let function = definitions.functions.get(index)?;
+        let values: Vec<Option<Value>> = call.arguments.iter().map(|argument| self.expr(argument, context)).collect();
+        self.count(call, function.value.arguments.len(), span, context)?;
+        if definitions.function_is_cyclic(index) {
+            return None;
+        }
+        let key = (index, values, context.place);
+        if let Some(&value) = self.calls.get(&key) {
+            return value;
+        }
+        let body = function.value.body.as_ref().and_then(|body| body.expression.as_ref());
+        let frame = Frame { function: &function.name, names: &function.value.arguments, values: &key.1, call: span };
+        let value = body.and_then(|body| self.expr(&body.root, Context { place: context.place, frame: Some(&frame) }));
+        self.calls.insert(key, value);
+        value
+    }
+}

@@ -1,0 +1,166 @@
+//! Parameters, states and memory, and the namespace of everything that expressions can name.
+
+use super::scope::{Definition, Entity, Scope};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::dimension::Dimension;
+use crate::front::names::{is_identifier, reserved};
+use crate::front::parser::{shortened, unit_diagnostic};
+use crate::front::quantity::{Quantities, Quantity};
+use crate::front::spec::{Named, Parameter, Spec};
+use crate::front::text::Text;
+use crate::front::units::parse_unit;
+use crate::ir::{self, Model};
+use crate::source::{SourceMap, Span};
+
+/// Fills the model's parameters, states and memory and returns the names of the spec.
+pub(super) fn declare(spec: &Spec, model: &mut Model, sources: &SourceMap, diagnostics: &mut Vec<Diagnostic>) -> Scope {
+    let mut scope = Scope::default();
+    for (i, item) in spec.parameters.iter().enumerate() {
+        let parameter = parameter(item, &mut Quantities { sources, diagnostics });
+        let dimension = parameter.as_ref().map(|parameter| parameter.dimension);
+        let broken = || ir::Parameter { name: item.name.clone(), ..broken_parameter() };
+        model.parameters.push(parameter.unwrap_or_else(broken));
+        define(item, Entity::Parameter(i), dimension, &mut scope, diagnostics);
+    }
+    for (i, item) in spec.states.iter().enumerate() {
+        let unit = item.value.unit.as_ref();
+        let dimension = unit.and_then(|unit| self::unit(unit, diagnostics));
+        model.states.push(ir::State {
+            name: item.name.clone(),
+            dimension: dimension.unwrap_or(Dimension::NONE),
+            unit: unit.map_or(String::new(), |unit| unit.value.trim().to_owned()),
+            doc: item.value.doc.clone(),
+        });
+        define(item, Entity::State(i), dimension, &mut scope, diagnostics);
+    }
+    for (i, item) in spec.memory.iter().enumerate() {
+        let (name, doc) = (item.name.clone(), item.value.doc.clone());
+        model.memory.push(ir::Memory { name, initial: item.value.initial, doc });
+        define(item, Entity::Memory(i), Some(Dimension::NONE), &mut scope, diagnostics);
+    }
+    for (i, item) in spec.lets.iter().enumerate() {
+        define(item, Entity::Let(i), None, &mut scope, diagnostics);
+    }
+    for (i, item) in spec.functions.iter().enumerate() {
+        define(item, Entity::Function(i), None, &mut scope, diagnostics);
+        arguments(&item.value.arguments, diagnostics);
+    }
+    for (i, item) in spec.measures.iter().enumerate() {
+        let dimension = item.value.unit.as_ref().and_then(|unit| self::unit(unit, diagnostics));
+        define(item, Entity::Measure(i), dimension, &mut scope, diagnostics);
+    }
+    let modes = spec.modes.iter().map(|item| (item.name.as_str(), item.span));
+    let transitions = spec.transitions.iter().map(|item| (item.name.as_str(), item.span));
+    let problems = spec.problems.iter().map(|item| (item.name.as_str(), item.span));
+    for (name, span) in modes.chain(transitions).chain(problems) {
+        valid(name, span, diagnostics);
+    }
+    scope
+}
+
+/// Defines a name, unless it is not valid, belongs to the language or is there already.
+fn define<T>(
+    item: &Named<T>,
+    entity: Entity,
+    dimension: Option<Dimension>,
+    scope: &mut Scope,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let name = item.name.as_str();
+    if !valid(name, item.span, diagnostics) || is_reserved(name, item.span, diagnostics) {
+        return;
+    }
+    let definition = Definition { entity, span: Some(item.span), dimension };
+    if let Some(first) = scope.insert(name, definition) {
+        let message = format!("`{name}` is defined twice");
+        let mut error = Diagnostic::error(Code::DefinedTwice, message).at(item.span, format!("as {}", entity.kind()));
+        if let Some(span) = first.span {
+            error = error.see(span, format!("as {}", first.entity.kind()));
+        }
+        let help = "parameters, states, memory, lets, functions and measures share their names: rename one";
+        diagnostics.push(error.help(help));
+    }
+}
+
+fn valid(name: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> bool {
+    if is_identifier(name) {
+        return true;
+    }
+    let message = format!("`{}` is not a valid name", shortened(name));
+    let help = "a name has ASCII letters, digits and `_` and does not begin with a digit";
+    diagnostics.push(Diagnostic::error(Code::InvalidName, message).at(span, "").help(help));
+    false
+}
+
+fn is_reserved(name: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> bool {
+    let Some(meaning) = reserved(name) else {
+        return false;
+    };
+    let message = format!("`{name}` belongs to the language: it is {meaning}");
+    diagnostics.push(Diagnostic::error(Code::ReservedName, message).at(span, "").help("choose another name"));
+    true
+}
+
+/// Checks the names of a function's arguments.
+fn arguments(arguments: &[Text], diagnostics: &mut Vec<Diagnostic>) {
+    for (i, argument) in arguments.iter().enumerate() {
+        let name = argument.value.as_str();
+        if !valid(name, argument.span, diagnostics) || is_reserved(name, argument.span, diagnostics) {
+            continue;
+        }
+        if let Some(first) = arguments.iter().take(i).find(|first| first.value == name) {
+            let error = Diagnostic::error(Code::DefinedTwice, format!("two arguments are named `{name}`"));
+            diagnostics.push(error.at(argument.span, "").see(first.span, "first one"));
+        }
+    }
+}
+
+/// The dimension of a unit.
+fn unit(text: &Text, diagnostics: &mut Vec<Diagnostic>) -> Option<Dimension> {
+    match parse_unit(&text.value) {
+        Ok(unit) => Some(unit.dimension),
+        Err(error) => {
+            diagnostics.push(*unit_diagnostic(error, text, 0));
+            None
+        }
+    }
+}
+
+fn broken_parameter() -> ir::Parameter {
+    let (name, unit, doc) = (String::new(), String::new(), String::new());
+    ir::Parameter { name, dimension: Dimension::NONE, value: 0.0, unit, range: None, doc }
+}
+
+/// Value and range of a parameter; `None` when its dimension is not known.
+fn parameter(item: &Named<Parameter>, quantities: &mut Quantities<'_>) -> Option<ir::Parameter> {
+    let Parameter { value, range, doc } = &item.value;
+    let value_span = value.as_ref().map_or(item.span, |value| value.span);
+    let value = value.as_ref().and_then(|value| quantities.any(value));
+    // A bare 0 has the dimension of the bounds, if there are any.
+    let bounds =
+        range.as_ref().map(|range| [&range.lower, &range.upper].map(|bound| (quantities.any(bound), bound.span)));
+    let value = value?;
+    let bound_unit = |(bound, _): &(Option<Quantity>, Span)| bound.as_ref().map(|b| (b.dimension, b.unit.clone()));
+    let from_bounds = bounds.iter().flatten().filter_map(bound_unit).find(|(dimension, _)| dimension.is_some());
+    let (dimension, unit) = match (value.dimension, from_bounds) {
+        (None, Some((Some(dimension), unit))) => (dimension, unit),
+        (dimension, _) => (dimension.unwrap_or(Dimension::NONE), value.unit.clone()),
+    };
+    let what = format!("`{}`", item.name);
+    let range = range.as_ref().zip(bounds).and_then(|(range, [(lower, lower_span), (upper, upper_span)])| {
+        let (lower, upper) = (lower?, upper?);
+        let low = quantities.check(&lower, lower_span, dimension, &format!("the lower bound of {what}"));
+        let high = quantities.check(&upper, upper_span, dimension, &format!("the upper bound of {what}"));
+        low.and(high)?;
+        quantities.ordered(lower.value, upper.value, range.span, &what)
+    });
+    if let Some((lower, upper)) = range.filter(|(lower, upper)| !(*lower..=*upper).contains(&value.value)) {
+        let shown = |value| crate::front::format_quantity(value, &unit);
+        let message = format!("the value of {what} lies outside its range");
+        let label = format!("not within {} and {}", shown(lower), shown(upper));
+        let error = Diagnostic::error(Code::Range, message).at(value_span, label);
+        quantities.diagnostics.push(error.help("change the value or widen the range"));
+    }
+    let (name, doc) = (item.name.clone(), doc.clone());
+    Some(ir::Parameter { name, dimension, value: value.value, unit, range, doc })
+}

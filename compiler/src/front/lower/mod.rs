@@ -1,0 +1,72 @@
+//! Spec to model: names resolved, dimensions checked, expressions lowered into one graph.
+
+mod branch;
+mod call;
+mod declare;
+mod definitions;
+mod dynamics;
+mod expr;
+mod fold;
+mod lowering;
+mod measures;
+mod order;
+mod problems;
+mod scope;
+mod section;
+mod unused;
+mod value;
+
+use super::spec::Spec;
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Graph, Model};
+use crate::source::SourceMap;
+pub(crate) use definitions::Definitions;
+pub(crate) use lowering::{Context, Lowering, dimension_text};
+pub(crate) use scope::Scope;
+pub(crate) use value::Place;
+
+/// Lowers a spec. The model is whole only if no error was reported.
+pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diagnostic>) -> Model {
+    let mut model = empty_model();
+    model.name = spec.name.as_ref().map_or(String::new(), |name| name.value.clone());
+    model.title.clone_from(&spec.title);
+    model.source.clone_from(&spec.source);
+    let scope = declare::declare(spec, &mut model, sources, diagnostics);
+    let definitions = Definitions::new(spec, &scope, diagnostics);
+    definitions.check_function_names(&scope, diagnostics);
+    let mut lowering = Lowering::new(&mut model, &scope, &definitions, sources, diagnostics);
+    lowering.modes(spec);
+    lowering.transitions(spec);
+    lowering.section(spec);
+    lowering.measures(spec);
+    lowering.problems(spec);
+    // What nothing needs is checked, but leaves no trace in the model.
+    let lets = lowering.into_lets();
+    let mut scratch = model.clone();
+    Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics).lower_remaining_lets(lets);
+    // Where a name is misspelt, what it was meant to be only looks unused.
+    if !diagnostics.iter().any(Diagnostic::is_error) {
+        unused::check(spec, diagnostics);
+    }
+    model
+}
+
+/// A model without anything.
+pub(crate) fn empty_model() -> Model {
+    Model {
+        name: String::new(),
+        title: String::new(),
+        source: String::new(),
+        graph: Graph::default(),
+        parameters: Vec::new(),
+        states: Vec::new(),
+        memory: Vec::new(),
+        switches: Vec::new(),
+        modes: Vec::new(),
+        transitions: Vec::new(),
+        section: None,
+        functionals: Vec::new(),
+        measures: Vec::new(),
+        problems: Vec::new(),
+    }
+}

@@ -1,0 +1,125 @@
+//! Optimisation problems: objectives, parameters to vary, and constraints.
+
+use super::expr::Operand;
+use super::lowering::{Context, Lowering};
+use super::value::{Place, Uses, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::dimension::Dimension;
+use crate::front::quantity::Quantities;
+use crate::front::spec::{Equation, Interval, Named, Problem, Spec};
+use crate::front::syntax::{Comparison, Expr, ExprKind};
+use crate::ir::{self, Binary, Node, NodeId, Symbol};
+
+impl Lowering<'_> {
+    /// Lowers `[problems]`.
+    pub(super) fn problems(&mut self, spec: &Spec) {
+        let mut default = None;
+        for item in &spec.problems {
+            if let Some(span) = item.value.default {
+                if let Some(first) = default {
+                    let error = Diagnostic::error(Code::GivenTwice, "two problems are the default").at(span, "");
+                    self.diagnostics.push(error.see(first, "first one").help("keep one `default = true`"));
+                }
+                default = default.or(Some(span));
+            }
+            let problem = self.problem(item);
+            self.model.problems.extend(problem);
+        }
+    }
+
+    fn problem(&mut self, item: &Named<Problem>) -> Option<ir::Problem> {
+        let Problem { doc, default, objective, vary, subject_to } = &item.value;
+        let lowered = objective.as_ref().and_then(|(_, equation)| self.objective(equation));
+        let vary: Vec<Option<ir::Vary>> = vary.iter().map(|item| self.vary(item)).collect();
+        let constraints: Vec<Option<ir::Constraint>> = subject_to.iter().map(|item| self.constraint(item)).collect();
+        let ((sense, equation), (objective, objective_dimension)) = objective.as_ref().zip(lowered)?;
+        Some(ir::Problem {
+            name: item.name.clone(),
+            default: default.is_some(),
+            doc: doc.clone(),
+            sense: *sense,
+            objective,
+            objective_text: equation.text.value.trim().to_owned(),
+            objective_dimension,
+            vary: vary.into_iter().collect::<Option<_>>()?,
+            constraints: constraints.into_iter().collect::<Option<_>>()?,
+        })
+    }
+
+    /// An objective: exactly `spectral_radius`, or an expression over measures and parameters.
+    pub(crate) fn objective(&mut self, equation: &Equation) -> Option<(NodeId, Dimension)> {
+        let value = self.equation(equation, Place::Problem)?;
+        if value.uses.any(Uses::RADIUS) && !self.is_radius(value) {
+            let message = "`spectral_radius` can be an objective, but not a part of one";
+            let error = Diagnostic::error(Code::ProblemForm, message).at(self.root_span(equation), "");
+            let help = "it is not smooth; optimise a measure and bound `spectral_radius` in `subject_to`";
+            self.diagnostics.push(error.help(help));
+            return None;
+        }
+        Some((value.node, value.dimension.unwrap_or(Dimension::NONE)))
+    }
+
+    fn vary(&mut self, item: &Named<Interval>) -> Option<ir::Vary> {
+        let model = &self.model;
+        let names: Vec<String> = model.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let parameter = self.reference("parameter", &item.name, item.span, &names)?;
+        let dimension = self.scope.get(&item.name).and_then(|definition| definition.dimension);
+        let mut quantities = Quantities { sources: self.sources, diagnostics: self.diagnostics };
+        let Some(dimension) = dimension else {
+            // The parameter is broken; the bounds are read for their messages.
+            quantities.any(&item.value.lower);
+            quantities.any(&item.value.upper);
+            return None;
+        };
+        let (lower, upper) = quantities.interval(&item.value, dimension, &format!("`{}`", item.name))?;
+        Some(ir::Vary { parameter, lower, upper })
+    }
+
+    /// A constraint, `lhs <= rhs` or `lhs >= rhs`.
+    pub(crate) fn constraint(&mut self, equation: &Equation) -> Option<ir::Constraint> {
+        let expression = equation.expression.as_ref()?;
+        let root = &expression.root;
+        let ExprKind::Compare(comparison, a, b) = &root.kind else {
+            let error = Diagnostic::error(Code::ConstraintForm, "a constraint compares two numbers").at(root.span, "");
+            let help = "write it as `lhs <= rhs` or `lhs >= rhs`, one constraint a string";
+            self.diagnostics.push(error.help(help));
+            return None;
+        };
+        if matches!(comparison, Comparison::Less | Comparison::Greater) {
+            let message =
+                format!("a constraint cannot be strict: an optimum on `{0}` may not exist", comparison.symbol());
+            let error = Diagnostic::error(Code::ConstraintForm, message).at(root.span, "");
+            self.diagnostics.push(error.help(format!("write `{}=`", comparison.symbol())));
+            return None;
+        }
+        self.lower_lets(&expression.names, Place::Problem);
+        self.sides(*comparison, a, b, equation)
+    }
+
+    fn sides(&mut self, comparison: Comparison, a: &Expr, b: &Expr, equation: &Equation) -> Option<ir::Constraint> {
+        let context = Context::of(Place::Problem);
+        let (left, right) = (self.expr(a, context), self.expr(b, context));
+        let (a, b) = (Operand { value: left?, span: a.span }, Operand { value: right?, span: b.span });
+        let dimension = self.same(a, b, &format!("`{}`", comparison.symbol()), context)?;
+        let (small, large) = if comparison.is_less() { (a.value, b.value) } else { (b.value, a.value) };
+        let uses = small.uses.and(large.uses);
+        let bound = self.is_radius(small) && large.uses.only(Uses::PARAMETER);
+        if uses.any(Uses::RADIUS) && !bound {
+            let message = "this is no bound on `spectral_radius` that can be imposed";
+            let error = Diagnostic::error(Code::ConstraintForm, message).at(self.root_span(equation), "");
+            self.diagnostics.push(error.help("write `spectral_radius <= r` with a number or parameters for r"));
+            return None;
+        }
+        Some(ir::Constraint {
+            margin: self.binary(Binary::Sub, large.node, small.node),
+            stability_bound: bound.then_some(large.node),
+            text: equation.text.value.trim().to_owned(),
+            dimension: dimension.unwrap_or(Dimension::NONE),
+        })
+    }
+
+    fn is_radius(&self, value: Value) -> bool {
+        self.model.graph.node(value.node) == Node::Symbol(Symbol::SpectralRadius)
+    }
+}

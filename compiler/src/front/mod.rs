@@ -1,0 +1,117 @@
+//! The front end: the text of a spec to the intermediate representation, or to diagnostics.
+//!
+//! The stages, each in its folder or file: TOML with places (`document`), tables and keys checked and expressions
+//! parsed (`read`, giving `spec`), names resolved, dimensions checked and expressions lowered (`lower`). All
+//! problems of a file are reported in one go; what depends on something broken is silent.
+
+mod constant;
+mod document;
+pub mod flags;
+mod format;
+mod lexer;
+mod lower;
+mod names;
+mod parser;
+mod quantity;
+mod read;
+mod spec;
+mod syntax;
+mod text;
+pub mod units;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Model;
+use crate::source::{FileId, SourceMap, Span};
+pub use format::{format_number, format_quantity, format_si, in_unit};
+pub use names::suggest;
+use std::path::Path;
+
+/// Largest spec in bytes.
+const SIZE_LIMIT: u64 = 4 << 20;
+
+/// What became of a spec.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// The text, for rendering diagnostics.
+    pub sources: SourceMap,
+    /// The model; `Some` if and only if there is no error.
+    pub model: Option<Model>,
+    /// Errors and warnings in the order of the text.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads a spec from a file.
+///
+/// # Errors
+/// When the file cannot be opened or read. A file that is too large or not UTF-8 gives a diagnostic.
+pub fn parse_file(path: &Path) -> std::io::Result<Parsed> {
+    let length = std::fs::metadata(path)?.len();
+    if length > SIZE_LIMIT {
+        return Ok(unreadable(path, "", 0, &format!("this file has {length} bytes; a spec has at most {SIZE_LIMIT}")));
+    }
+    let bytes = std::fs::read(path)?;
+    Ok(match std::str::from_utf8(&bytes) {
+        Ok(text) => parse_text(path, text),
+        Err(error) => {
+            let valid = String::from_utf8_lossy(bytes.get(..error.valid_up_to()).unwrap_or(&[]));
+            unreadable(path, &valid, valid.len(), "the file is not UTF-8 from here on")
+        }
+    })
+}
+
+/// Reads a spec from its text; `path` is how messages call it, and its stem is the name that the model must have.
+pub fn parse_text(path: &Path, text: &str) -> Parsed {
+    if text.len() as u64 > SIZE_LIMIT {
+        let message = format!("this text has {} bytes; a spec has at most {SIZE_LIMIT}", text.len());
+        return unreadable(path, "", 0, &message);
+    }
+    let mut sources = SourceMap::default();
+    let file = sources.add(path, text);
+    let mut diagnostics = Vec::new();
+    let document = document::parse(file, text, &mut diagnostics);
+    let complete = diagnostics.is_empty();
+    let start = Span { file, start: 0, end: 0 };
+    let spec = read::read(&document, start, complete, &mut diagnostics);
+    let mut model = None;
+    // In a file with broken TOML definitions may be lost: what would be said of names is unreliable.
+    if complete && !diagnostics.iter().any(|diagnostic| diagnostic.code == Code::TooLarge) {
+        check_file_name(&spec, path, &mut diagnostics);
+        model = Some(lower::lower(&spec, &sources, &mut diagnostics));
+    }
+    let model = model.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
+    let diagnostics = sorted(diagnostics);
+    Parsed { sources, model, diagnostics }
+}
+
+fn unreadable(path: &Path, text: &str, at: usize, message: &str) -> Parsed {
+    let mut sources = SourceMap::default();
+    let file: FileId = sources.add(path, text);
+    let diagnostic = Diagnostic::error(Code::File, message).at(Span { file, start: at, end: at }, "");
+    Parsed { sources, model: None, diagnostics: vec![diagnostic] }
+}
+
+fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnostic>) {
+    let (Some(name), Some(stem)) = (&spec.name, path.file_stem().and_then(|stem| stem.to_str())) else {
+        return;
+    };
+    if name.value != stem {
+        let message = format!("the model is named `{}`, its file `{stem}`", parser::shortened(&name.value));
+        let help = format!("name the file `{}.toml`, or write `name = \"{stem}\"`", parser::shortened(&name.value));
+        diagnostics.push(Diagnostic::error(Code::NameMismatch, message).at(name.span, "").help(help));
+    }
+}
+
+/// Most diagnostics of one file; beyond that errors only, and no more than this.
+const DIAGNOSTIC_LIMIT: usize = 1000;
+
+/// In the order of the text, each problem of each place once.
+fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    diagnostics.sort_by_key(|diagnostic| diagnostic.primary().map(|span| (span.start, span.end)));
+    let mut seen = std::collections::HashSet::new();
+    diagnostics.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.primary(), diagnostic.message.clone())));
+    if diagnostics.len() > DIAGNOSTIC_LIMIT && diagnostics.iter().any(Diagnostic::is_error) {
+        diagnostics.retain(Diagnostic::is_error);
+    }
+    diagnostics.truncate(DIAGNOSTIC_LIMIT);
+    diagnostics
+}

@@ -1,0 +1,108 @@
+//! The tables `[functions]`, `[modes]`, `[transitions]` and `[section]`.
+
+use super::fields::{Fields, Sink, equation, equations, scalar, string, strings, table};
+use super::{fields_of, unsupported};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::front::document::Entry;
+use crate::front::names::suggest;
+use crate::front::spec::{Function, Mode, Named, Section, Transition};
+use crate::ir::Direction;
+
+/// `f = { args = ["w"], expr = "..." }`.
+pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Function>> {
+    let mut functions = Vec::new();
+    for entry in entries {
+        let Some(fields) = fields_of(entry, "function", &["args", "expr", "doc"], sink) else {
+            continue;
+        };
+        let arguments = fields.require("args", "args = [\"x\"]", sink);
+        let arguments = arguments.and_then(|entry| strings(entry, "args = [\"x\"]", sink)).unwrap_or_default();
+        let body = fields.equation("expr", "expr = \"2*x\"", sink);
+        fields.doc("doc", sink);
+        functions.push(Named { name: entry.key.clone(), span: entry.key_span, value: Function { arguments, body } });
+    }
+    functions
+}
+
+/// `[modes.NAME.flow]`.
+pub(super) fn modes(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Mode>> {
+    let mut modes = Vec::new();
+    for entry in entries {
+        let Some(fields) = fields_of(entry, "mode", &["flow", "mass", "doc"], sink) else {
+            continue;
+        };
+        let help = "divide the flow by the factor, where it cannot vanish";
+        unsupported(&fields, "mass", "mass matrices are not supported yet", help, sink);
+        let flow = fields.require("flow", &format!("[modes.{}.flow]", entry.key), sink);
+        let flow = flow.and_then(|entry| table(entry, sink)).map(|table| equations(&table.entries, sink));
+        fields.doc("doc", sink);
+        let value = Mode { flow: flow.unwrap_or_default() };
+        modes.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+    }
+    modes
+}
+
+/// `[transitions.NAME]`.
+pub(super) fn transitions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Transition>> {
+    let mut transitions = Vec::new();
+    let keys = ["from", "to", "guard", "direction", "when", "reset", "doc"];
+    for entry in entries {
+        let Some(fields) = fields_of(entry, "transition", &keys, sink) else {
+            continue;
+        };
+        fields.doc("doc", sink);
+        let value = Transition {
+            from: fields.string("from", "from = \"stance\"", sink),
+            to: fields.string("to", "to = \"stance\"", sink),
+            guard: fields.equation("guard", "guard = \"length - tau*speed\"", sink),
+            direction: direction(&fields, sink),
+            when: fields.get("when").and_then(|entry| equation(entry, sink)),
+            reset: equations(fields.table("reset", sink), sink),
+        };
+        transitions.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+    }
+    transitions
+}
+
+fn direction(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Direction> {
+    let example = "direction = \"falling\"";
+    let entry = fields.require("direction", example, sink)?;
+    let text = string(entry, example, sink)?;
+    match text.value.as_str() {
+        "falling" => Some(Direction::Falling),
+        "rising" => Some(Direction::Rising),
+        "either" => Some(Direction::Either),
+        other => {
+            let help = match suggest(other, ["falling", "rising", "either"]) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "write `falling` (from positive to negative), `rising` or `either`".to_owned(),
+            };
+            let message = "this is no direction in which a guard passes through zero";
+            sink.push(Diagnostic::error(Code::BadValue, message).at(text.span, "").help(help));
+            None
+        }
+    }
+}
+
+/// `[section]`.
+pub(super) fn section(entry: &Entry, sink: &mut Sink<'_>) -> Option<Section> {
+    let keys = ["after", "coordinates", "embed", "start", "symmetry", "doc"];
+    let fields = Fields::new(table(entry, sink)?, entry.key_span, "[section]".to_owned(), &keys, sink);
+    fields.doc("doc", sink);
+    let example = "coordinates = [\"angle\", \"speed\"]";
+    let coordinates = fields.require("coordinates", example, sink);
+    let mut start = Vec::new();
+    for entry in fields.table("start", sink) {
+        if let Some(value) = scalar(&entry.value, &entry.key, "x = \"0.2 m/s\"", sink) {
+            start.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+        }
+    }
+    Some(Section {
+        span: entry.key_span,
+        after: fields.string("after", "after = \"step\"", sink),
+        coordinates: coordinates.and_then(|entry| strings(entry, example, sink)),
+        embed: equations(fields.table("embed", sink), sink),
+        start,
+        symmetry: fields.get("symmetry").map(|_| equations(fields.table("symmetry", sink), sink)),
+    })
+}

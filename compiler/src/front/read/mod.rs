@@ -1,0 +1,132 @@
+//! Document to spec: every table read, every key checked, every expression parsed. Names are not resolved here.
+
+mod equations;
+mod fields;
+mod quantities;
+mod results;
+
+use super::document::{Entry, Table, ValueKind};
+use super::names::is_module_name;
+use super::spec::Spec;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+pub(crate) use fields::list;
+use fields::{Fields, Sink, table};
+
+/// All keys of a spec.
+const KEYS: &[&str] = &[
+    "spec",
+    "name",
+    "title",
+    "source",
+    "use",
+    "parameters",
+    "state",
+    "memory",
+    "let",
+    "functions",
+    "modes",
+    "transitions",
+    "section",
+    "measures",
+    "problems",
+];
+
+/// The version of the language.
+const VERSION: i64 = 1;
+
+/// Reads a whole document; `start` is the beginning of the file. Nothing is reported as missing unless `complete`.
+pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
+    let mut sink = Sink { diagnostics, complete };
+    let sink = &mut sink;
+    let fields = Fields::new(document, start, "the spec".to_owned(), KEYS, sink);
+    version(&fields, sink);
+    too_many(&fields, sink);
+    unsupported(
+        &fields,
+        "use",
+        "parts pulled in by `use` are not supported yet",
+        "put their tables into this file",
+        sink,
+    );
+    let entries = |key: &str, sink: &mut Sink<'_>| fields.table(key, sink);
+    let spec = Spec {
+        name: fields.string("name", "name = \"my_model\"", sink),
+        title: fields.doc("title", sink),
+        source: fields.doc("source", sink),
+        parameters: quantities::parameters(entries("parameters", sink), sink),
+        states: quantities::states(entries("state", sink), sink),
+        memory: quantities::memory(entries("memory", sink), sink),
+        lets: fields::equations(entries("let", sink), sink),
+        functions: equations::functions(entries("functions", sink), sink),
+        modes: equations::modes(entries("modes", sink), sink),
+        transitions: equations::transitions(entries("transitions", sink), sink),
+        section: fields.get("section").and_then(|entry| equations::section(entry, sink)),
+        measures: results::measures(entries("measures", sink), sink),
+        problems: results::problems(entries("problems", sink), sink),
+    };
+    for (key, example) in [("state", "x = { unit = \"m\" }"), ("modes", "x = \"...\"` below `[modes.NAME.flow]")] {
+        if fields.get(key).is_none_or(|entry| matches!(&entry.value.kind, ValueKind::Table(t) if t.entries.is_empty()))
+        {
+            let place = fields.get(key).map_or(start, |entry| entry.key_span);
+            sink.missing(place, format!("a spec needs at least one entry in [{key}]"), &format!("add `{example}`"));
+        }
+    }
+    check_name(&spec, sink);
+    spec
+}
+
+/// Most states and most modes: a model with more would not fit into the sizes of generated code.
+const STATE_LIMIT: usize = 256;
+/// Most entries of any other table.
+const ENTRY_LIMIT: usize = 10_000;
+
+/// Reports tables of absurd size; nothing is lowered then.
+fn too_many(fields: &Fields<'_>, sink: &mut Sink<'_>) {
+    for key in KEYS {
+        let Some(entry) = fields.get(key) else { continue };
+        let ValueKind::Table(table) = &entry.value.kind else { continue };
+        let limit = if matches!(*key, "state" | "modes") { STATE_LIMIT } else { ENTRY_LIMIT };
+        if table.entries.len() > limit {
+            let message = format!("[{key}] has {} entries, and can have {limit}", table.entries.len());
+            sink.push(Diagnostic::error(Code::TooLarge, message).at(entry.key_span, "").help("split the model"));
+        }
+    }
+}
+
+fn version(fields: &Fields<'_>, sink: &mut Sink<'_>) {
+    let Some(entry) = fields.require("spec", "spec = 1", sink) else {
+        return;
+    };
+    match entry.value.kind {
+        ValueKind::Integer(Some(VERSION), _) => {}
+        ValueKind::Integer(..) => {
+            let message = "this version of the spec language is not known here";
+            let diagnostic = Diagnostic::error(Code::BadValue, message).at(entry.value.span, "");
+            sink.push(diagnostic.help("write `spec = 1`, or use a newer gaitc"));
+        }
+        _ => sink.wrong_type(&entry.value, "spec", "a whole number", "spec = 1"),
+    }
+}
+
+fn check_name(spec: &Spec, sink: &mut Sink<'_>) {
+    let Some(name) = spec.name.as_ref().filter(|name| !is_module_name(&name.value)) else {
+        return;
+    };
+    let message = format!("`{}` cannot name a model", super::parser::shortened(&name.value));
+    let help = "a model's name has lower-case letters, digits and `_`, begins with a letter and is no Rust keyword";
+    sink.push(Diagnostic::error(Code::InvalidName, message).at(name.span, "").help(help));
+}
+
+/// Reports a key that a later version of gaitc will take.
+fn unsupported(fields: &Fields<'_>, key: &str, message: &str, help: &str, sink: &mut Sink<'_>) {
+    if let Some(entry) = fields.get(key) {
+        sink.push(Diagnostic::error(Code::Unsupported, message).at(entry.key_span, "").help(help));
+    }
+}
+
+/// The fields of a named sub-table, e.g. of `[modes.stance]`.
+fn fields_of<'t>(entry: &'t Entry, kind: &str, keys: &[&str], sink: &mut Sink<'_>) -> Option<Fields<'t>> {
+    let what = format!("{kind} `{}`", super::parser::shortened(&entry.key));
+    Some(Fields::new(table(entry, sink)?, entry.key_span, what, keys, sink))
+}

@@ -1,0 +1,97 @@
+//! The tables `[measures]` and `[problems]`.
+
+use super::fields::{Fields, Sink, constraint, equation, interval, strings};
+use super::fields_of;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::front::document::{Entry, ValueKind};
+use crate::front::spec::{Equation, Interval, Measure, Named, Problem};
+use crate::ir::Sense;
+use crate::source::Span;
+
+/// `speed = { expr = "mean(v)", unit = "m/s", doc = "..." }`.
+pub(super) fn measures(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Measure>> {
+    let mut measures = Vec::new();
+    for entry in entries {
+        let Some(fields) = fields_of(entry, "measure", &["expr", "unit", "doc"], sink) else {
+            continue;
+        };
+        let value = Measure {
+            expr: fields.equation("expr", "expr = \"mean(v)\"", sink),
+            unit: fields.string("unit", "unit = \"m/s\"", sink),
+            doc: fields.doc("doc", sink),
+        };
+        measures.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+    }
+    measures
+}
+
+/// `[problems.NAME]`.
+pub(super) fn problems(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Problem>> {
+    let mut problems = Vec::new();
+    let keys = ["doc", "default", "maximize", "minimize", "vary", "subject_to"];
+    for entry in entries {
+        let Some(fields) = fields_of(entry, "problem", &keys, sink) else {
+            continue;
+        };
+        let example = "subject_to = [\"spectral_radius <= 0.95\"]";
+        let subject_to = fields.get("subject_to").and_then(|entry| strings(entry, example, sink)).unwrap_or_default();
+        let value = Problem {
+            doc: fields.doc("doc", sink),
+            default: default(&fields, sink),
+            objective: objective(&fields, sink),
+            vary: vary(&fields, sink),
+            subject_to: subject_to.into_iter().map(|text| constraint(text, sink)).collect(),
+        };
+        problems.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+    }
+    problems
+}
+
+fn default(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Span> {
+    let entry = fields.get("default")?;
+    match entry.value.kind {
+        ValueKind::Boolean(default) => default.then_some(entry.key_span),
+        _ => {
+            sink.wrong_type(&entry.value, "default", "true or false", "default = true");
+            None
+        }
+    }
+}
+
+fn objective(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<(Sense, Equation)> {
+    match (fields.get("maximize"), fields.get("minimize")) {
+        (Some(maximize), Some(minimize)) => {
+            let message = format!("{} both maximizes and minimizes", fields.what);
+            let diagnostic = Diagnostic::error(Code::ProblemForm, message).at(minimize.key_span, "");
+            let diagnostic = diagnostic.see(maximize.key_span, "first objective");
+            sink.push(diagnostic.help("keep one, and bound the other in `subject_to`, or write two problems"));
+            None
+        }
+        (Some(entry), None) => equation(entry, sink).map(|equation| (Sense::Maximize, equation)),
+        (None, Some(entry)) => equation(entry, sink).map(|equation| (Sense::Minimize, equation)),
+        (None, None) => {
+            let message = format!("{} has no objective", fields.what);
+            sink.missing(fields.place, message, "add `maximize = \"...\"` or `minimize = \"...\"`");
+            None
+        }
+    }
+}
+
+fn vary(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Vec<Named<Interval>> {
+    let example = "vary = { psi = [\"0 deg\", \"45 deg\"] }";
+    if fields.require("vary", example, sink).is_none() {
+        return Vec::new();
+    }
+    let mut vary = Vec::new();
+    let entries = fields.table("vary", sink);
+    for entry in entries {
+        if let Some(value) = interval(entry, example, sink) {
+            vary.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+        }
+    }
+    if entries.is_empty() && fields.get("vary").is_some_and(|entry| matches!(entry.value.kind, ValueKind::Table(_))) {
+        let diagnostic = Diagnostic::error(Code::ProblemForm, format!("{} varies nothing", fields.what));
+        sink.push(diagnostic.at(fields.place, "").help(format!("write `{example}`")));
+    }
+    vary
+}

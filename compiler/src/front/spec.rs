@@ -1,0 +1,140 @@
+//! A spec as it was written: all tables read and their types checked, names not yet resolved.
+
+use super::syntax::Expression;
+use super::text::Text;
+use crate::ir::{Direction, Sense};
+use crate::source::Span;
+
+/// A spec. What is missing or broken is `None` or left out, and has been reported.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Spec {
+    pub(crate) name: Option<Text>,
+    pub(crate) title: String,
+    pub(crate) source: String,
+    pub(crate) parameters: Vec<Named<Parameter>>,
+    pub(crate) states: Vec<Named<State>>,
+    pub(crate) memory: Vec<Named<Memory>>,
+    pub(crate) lets: Vec<Named<Equation>>,
+    pub(crate) functions: Vec<Named<Function>>,
+    pub(crate) modes: Vec<Named<Mode>>,
+    pub(crate) transitions: Vec<Named<Transition>>,
+    pub(crate) section: Option<Section>,
+    pub(crate) measures: Vec<Named<Measure>>,
+    pub(crate) problems: Vec<Named<Problem>>,
+}
+
+/// Something with a name and the place of that name.
+#[derive(Clone, Debug)]
+pub(crate) struct Named<T> {
+    pub(crate) name: String,
+    pub(crate) span: Span,
+    pub(crate) value: T,
+}
+
+/// The text of an expression, and its tree if it could be read.
+#[derive(Clone, Debug)]
+pub(crate) struct Equation {
+    pub(crate) text: Text,
+    pub(crate) expression: Option<Expression>,
+}
+
+/// Two quantities.
+#[derive(Clone, Debug)]
+pub(crate) struct Interval {
+    pub(crate) lower: Text,
+    pub(crate) upper: Text,
+    pub(crate) span: Span,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Parameter {
+    pub(crate) value: Option<Text>,
+    pub(crate) range: Option<Interval>,
+    pub(crate) doc: String,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    pub(crate) unit: Option<Text>,
+    /// The modes that have it; all of them without.
+    pub(crate) modes: Option<Vec<Text>>,
+    pub(crate) doc: String,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Memory {
+    pub(crate) initial: i64,
+    pub(crate) doc: String,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Function {
+    pub(crate) arguments: Vec<Text>,
+    pub(crate) body: Option<Equation>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Mode {
+    pub(crate) flow: Vec<Named<Equation>>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Transition {
+    pub(crate) from: Option<Text>,
+    pub(crate) to: Option<Text>,
+    pub(crate) guard: Option<Equation>,
+    pub(crate) direction: Option<Direction>,
+    pub(crate) when: Option<Equation>,
+    pub(crate) reset: Vec<Named<Equation>>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Section {
+    pub(crate) span: Span,
+    pub(crate) after: Option<Text>,
+    /// `None` where they are missing or broken.
+    pub(crate) coordinates: Option<Vec<Text>>,
+    pub(crate) embed: Vec<Named<Equation>>,
+    pub(crate) start: Vec<Named<Text>>,
+    pub(crate) symmetry: Option<Vec<Named<Equation>>>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Measure {
+    pub(crate) expr: Option<Equation>,
+    pub(crate) unit: Option<Text>,
+    pub(crate) doc: String,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    pub(crate) doc: String,
+    /// The place of `default = true`.
+    pub(crate) default: Option<Span>,
+    pub(crate) objective: Option<(Sense, Equation)>,
+    pub(crate) vary: Vec<Named<Interval>>,
+    pub(crate) subject_to: Vec<Equation>,
+}
+
+impl Spec {
+    /// Every expression of the spec, for checks that hold everywhere.
+    pub(crate) fn equations(&self) -> impl Iterator<Item = &Equation> {
+        let lets = self.lets.iter().map(|item| &item.value);
+        let functions = self.functions.iter().filter_map(|item| item.value.body.as_ref());
+        let flows = self.modes.iter().flat_map(|item| &item.value.flow).map(|item| &item.value);
+        let transitions = self.transitions.iter().flat_map(|item| {
+            let reset = item.value.reset.iter().map(|item| &item.value);
+            item.value.guard.iter().chain(&item.value.when).chain(reset)
+        });
+        let section = self
+            .section
+            .iter()
+            .flat_map(|section| section.embed.iter().chain(section.symmetry.iter().flatten()).map(|item| &item.value));
+        let measures = self.measures.iter().filter_map(|item| item.value.expr.as_ref());
+        let problems = self
+            .problems
+            .iter()
+            .flat_map(|item| item.value.objective.iter().map(|(_, equation)| equation).chain(&item.value.subject_to));
+        lets.chain(functions).chain(flows).chain(transitions).chain(section).chain(measures).chain(problems)
+    }
+}

@@ -1,0 +1,118 @@
+//! The command line as clap reads it.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Gaits, stability and the fastest stable climber, from models written as TOML specs.
+#[derive(Debug, Parser)]
+#[command(name = "gaitc", version, propagate_version = true, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    /// Folder with the specs whose parameter values and problems are used
+    #[arg(long, global = true, value_name = "DIR", help = "Folder to read specs from [default: ./specs where it exists]")]
+    pub(crate) specs: Option<PathBuf>,
+    /// Print JSON (SI units) instead of tables
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List the compiled models
+    Models,
+    /// Check spec files without building anything
+    Check(CheckArgs),
+    /// Find a periodic gait and its stability
+    Gait(GaitArgs),
+    /// Find the best gait over parameters
+    Optimize(OptimizeArgs),
+    /// Measure every generated derivative against an independent route
+    Verify(VerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// Spec files
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+/// Which model, and with which values.
+#[derive(Debug, Args)]
+pub(crate) struct ModelArgs {
+    /// Name of a compiled model (see `gaitc models`)
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    /// Set a parameter, e.g. --set 'psi=25 deg'
+    #[arg(long, value_name = "NAME=QUANTITY", allow_hyphen_values = true)]
+    pub(crate) set: Vec<String>,
+}
+
+/// Where and how exactly to look for a gait.
+#[derive(Debug, Args)]
+pub(crate) struct SearchArgs {
+    /// First guess of a section coordinate, e.g. --guess 'q_theta=-20 deg'
+    #[arg(long, value_name = "COORD=QUANTITY", allow_hyphen_values = true)]
+    pub(crate) guess: Vec<String>,
+    /// Relative tolerance of the integration's local error
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) tol: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json")]
+pub(crate) struct GaitArgs {
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) search: SearchArgs,
+    /// Number of maps that make one period
+    #[arg(long, default_value_t = 1, value_name = "K")]
+    pub(crate) period: usize,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "With no flags the spec's default problem is solved. With --maximize or --minimize the flags are the \
+whole problem. Otherwise --vary and --subject-to add to the problem.\n\nExamples:\n  gaitc optimize prescribed_length\n  \
+gaitc optimize prescribed_length --minimize spectral_radius --vary 'psi=5..45 deg' --vary 'omega=15..25 rad/s'")]
+pub(crate) struct OptimizeArgs {
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) search: SearchArgs,
+    /// Problem of the spec to solve
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["maximize", "minimize"])]
+    pub(crate) problem: Option<String>,
+    /// Measure (or expression over measures and parameters) to make as large as possible
+    #[arg(long, value_name = "MEASURE", conflicts_with = "minimize", allow_hyphen_values = true)]
+    pub(crate) maximize: Option<String>,
+    /// Measure (or `spectral_radius`) to make as small as possible
+    #[arg(long, value_name = "MEASURE", allow_hyphen_values = true)]
+    pub(crate) minimize: Option<String>,
+    /// Parameter to vary with its bounds, e.g. --vary 'psi=1..45 deg'
+    #[arg(long, value_name = "NAME=LO..HI", allow_hyphen_values = true)]
+    pub(crate) vary: Vec<String>,
+    /// Constraint, e.g. --subject-to 'mean_power <= 60 [W]'
+    #[arg(long = "subject-to", value_name = "EXPR", allow_hyphen_values = true)]
+    pub(crate) subject_to: Vec<String>,
+    /// Number of starting points
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub(crate) starts: usize,
+    /// Seed of the further starting points
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct VerifyArgs {
+    /// Name of a compiled model
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    /// Number of random points
+    #[arg(long, default_value_t = 100, value_name = "N")]
+    pub(crate) samples: usize,
+    /// Seed of the random points
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub(crate) seed: u64,
+}

@@ -1,0 +1,170 @@
+//! `gaitc gait MODEL`: a periodic gait, its stability and its measures.
+
+use super::args::{Cli, GaitArgs};
+use super::{InputError, Outcome, inputs, output};
+use crate::load::{Loaded, load};
+use gaitc_compiler::front::format_quantity;
+use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
+use gaitc_runtime::return_map::{StopReason, Warning};
+use serde_json::{Map, Value, json};
+
+/// Longer periods are not gaits that anybody could tell from chaos.
+const LONGEST_PERIOD: usize = 1000;
+
+pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
+    if args.period == 0 || args.period > LONGEST_PERIOD {
+        return Err(InputError(format!("--period {}: give a number from 1 to {LONGEST_PERIOD}", args.period)));
+    }
+    let loaded = load(&args.model.model, cli.specs.as_deref())?;
+    let parameters = inputs::parameters(&loaded, &args.model)?;
+    let guess = inputs::guess(&loaded, &args.search)?;
+    let memory = loaded.memory();
+    let accuracy = inputs::accuracy(&args.search)?;
+    let request = GaitRequest { period: args.period, accuracy, ..GaitRequest::new(&parameters, &memory) };
+    let outcome = find_gait(loaded.compiled, &request, &guess)?;
+    let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome };
+    if cli.json {
+        output::json(&report.json());
+    } else {
+        output::print(&report.text());
+    }
+    Ok(if outcome.status == GaitStatus::Converged { Outcome::Done } else { Outcome::Without })
+}
+
+struct Report<'a> {
+    loaded: &'a Loaded,
+    parameters: &'a [f64],
+    outcome: &'a GaitOutcome,
+}
+
+impl Report<'_> {
+    fn status(&self) -> &'static str {
+        match &self.outcome.status {
+            GaitStatus::Converged => "converged",
+            GaitStatus::NotConverged => "not_converged",
+            GaitStatus::Stopped(stop) => match stop.reason {
+                StopReason::NoEvent => "no_event",
+                StopReason::StepLimit => "step_limit",
+                StopReason::StepTooSmall => "step_too_small",
+                StopReason::NotFinite => "not_finite",
+                StopReason::Zeno => "zeno",
+            },
+        }
+    }
+
+    /// The gait only where there is one: the last point of a failed search is no result.
+    fn gait(&self) -> Option<&Gait> {
+        self.outcome.gait.as_ref().filter(|_| self.outcome.status == GaitStatus::Converged)
+    }
+
+    fn coordinate_names(&self) -> Vec<&str> {
+        let states = &self.loaded.spec.states;
+        self.loaded.coordinates().iter().map(|&i| states[i].name.as_str()).collect()
+    }
+
+    fn json(&self) -> Value {
+        let spec = &self.loaded.spec;
+        let names = spec.parameters.iter().map(|p| p.name.as_str());
+        let mut all = json!({
+            "model": spec.name,
+            "status": self.status(),
+            "message": self.outcome.message,
+            "parameters": named(names, self.parameters),
+            "residual": self.outcome.residual,
+        });
+        if let (Some(all), Some(gait)) = (all.as_object_mut(), self.gait()) {
+            all.extend(self.gait_json(gait));
+        }
+        if let (Some(all), GaitStatus::Stopped(stop)) = (all.as_object_mut(), &self.outcome.status) {
+            let state = named(spec.states.iter().map(|s| s.name.as_str()), &stop.state);
+            all.insert("stopped".to_owned(), json!({ "time": stop.time, "state": state }));
+        }
+        all
+    }
+
+    fn gait_json(&self, gait: &Gait) -> Map<String, Value> {
+        let (spec, map) = (&self.loaded.spec, &gait.map);
+        let states = spec.states.iter().map(|s| s.name.as_str());
+        let event = |e: &gaitc_runtime::return_map::Event| {
+            json!({
+                "transition": self.transition(e.transition),
+                "time": e.time,
+                "transversality": e.transversality,
+            })
+        };
+        let rows: Vec<Vec<f64>> = map.jacobian.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let mut all = Map::new();
+        let measures = spec.measures.iter().map(|m| m.name.as_str());
+        for (key, value) in [
+            ("section", named(self.coordinate_names().into_iter(), gait.coordinates.as_slice())),
+            ("state", named(states, map.state.as_slice())),
+            ("duration", json!(map.duration)),
+            ("jacobian", json!(rows)),
+            ("multipliers", json!(gait.multipliers.iter().map(|m| [m.re, m.im]).collect::<Vec<_>>())),
+            ("spectral_radius", json!(gait.spectral_radius)),
+            ("stable", json!(gait.spectral_radius < 1.0)),
+            ("measures", named(measures, map.measures.as_slice())),
+            ("events", map.events.iter().map(event).collect()),
+            ("warnings", map.warnings.iter().map(|w| self.warning(w)).collect()),
+        ] {
+            all.insert(key.to_owned(), value);
+        }
+        all
+    }
+
+    fn transition(&self, index: usize) -> &str {
+        self.loaded.spec.transitions.get(index).map_or("?", |t| &t.name)
+    }
+
+    fn warning(&self, warning: &Warning) -> String {
+        match *warning {
+            Warning::Grazing { transition, time, transversality } => format!(
+                "the guard of `{}` is only grazed at {time:.6} s (its time derivative there is {transversality:.1e}): the \
+                 linearisation is not valid",
+                self.transition(transition)
+            ),
+            Warning::Tie { taken, other, time } => format!(
+                "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",
+                self.transition(taken),
+                self.transition(other)
+            ),
+        }
+    }
+
+    fn text(&self) -> String {
+        let spec = &self.loaded.spec;
+        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
+        let Some(gait) = self.gait() else {
+            return text + "help: try another start (--guess COORD=QUANTITY) or other parameters (--set NAME=QUANTITY)\n";
+        };
+        for warning in &gait.map.warnings {
+            text += &format!("warning: {}\n", self.warning(warning));
+        }
+        let coordinates = self.loaded.coordinates().iter().zip(gait.coordinates.iter());
+        let mut rows: Vec<Vec<String>> = coordinates
+            .map(|(&i, &value)| vec![spec.states[i].name.clone(), format_quantity(value, &spec.states[i].unit)])
+            .collect();
+        rows.push(vec!["duration".to_owned(), format_quantity(gait.map.duration, "s")]);
+        let measures = spec.measures.iter().zip(gait.map.measures.iter());
+        rows.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
+        text += &format!("\n{}", output::table(&["gait", "value"], rows));
+        text + &stability(gait)
+    }
+}
+
+fn stability(gait: &Gait) -> String {
+    if gait.multipliers.is_empty() {
+        return "\nthe section has no coordinates: every step is the same, there are no multipliers\n".to_owned();
+    }
+    let verdict = if gait.spectral_radius < 1.0 { "stable" } else { "not stable" };
+    let row = |m: &nalgebra::Complex<f64>| {
+        let value = if m.im == 0.0 { format!("{:.6}", m.re) } else { format!("{:.6} {:+.6} i", m.re, m.im) };
+        vec![value, format!("{:.6}", m.norm())]
+    };
+    let table = output::table(&["multiplier", "magnitude"], gait.multipliers.iter().map(row));
+    format!("\n{table}\n{verdict}: spectral radius {:.6}\n", gait.spectral_radius)
+}
+
+fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
+    Value::Object(names.zip(values).map(|(name, v)| (name.to_owned(), json!(v))).collect())
+}

@@ -1,0 +1,65 @@
+//! The command line: one file a command. Results go to stdout, everything else to stderr.
+//!
+//! Exit codes: 0 done and converged; 1 wrong input; 2 ran, but there is no gait or no optimum; 130 interrupted.
+
+mod args;
+mod check;
+mod gait;
+mod inputs;
+mod models;
+mod optimize;
+mod output;
+mod verify;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// How a command that could run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// With what was asked for.
+    Done,
+    /// Without: no gait, no optimum, a derivative that is wrong.
+    Without,
+}
+
+/// Wrong input: the text says where, what was expected and what to write instead.
+#[derive(Debug)]
+struct InputError(String);
+
+impl<E: std::error::Error> From<E> for InputError {
+    fn from(error: E) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(message) => {
+            // A closed stdout must not become a panic; help and version are not errors.
+            let _ = message.print();
+            return if message.use_stderr() { ExitCode::from(1) } else { ExitCode::SUCCESS };
+        }
+    };
+    match run(&cli) {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::Without) => ExitCode::from(2),
+        Err(InputError(message)) => {
+            output::error(&message);
+            ExitCode::from(1)
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<Outcome, InputError> {
+    match &cli.command {
+        Command::Models => models::run(cli),
+        Command::Check(args) => check::run(cli, args),
+        Command::Gait(args) => gait::run(cli, args),
+        Command::Optimize(args) => optimize::run(cli, args),
+        Command::Verify(args) => verify::run(cli, args),
+    }
+}

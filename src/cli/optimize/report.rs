@@ -1,0 +1,159 @@
+//! The verdict of an optimisation, as JSON and for people.
+
+use crate::cli::output;
+use gaitc_compiler::front::{format_quantity, format_si, in_unit};
+use gaitc_compiler::ir::{Model, Problem, Sense};
+use gaitc_runtime::optimize::{Active, ActiveKind, Solution, Status};
+use serde_json::{Map, Value, json};
+
+/// A solved problem with the names and units of its spec.
+pub(super) struct Report<'a> {
+    pub(super) spec: &'a Model,
+    pub(super) problem: &'a Problem,
+    pub(super) solution: &'a Solution,
+}
+
+impl Report<'_> {
+    pub(super) fn print_json(&self) {
+        let s = self.solution;
+        let named = |names: Vec<&String>, values: &[f64]| -> Map<String, Value> {
+            names.into_iter().zip(values).map(|(name, v)| (name.clone(), json!(v))).collect()
+        };
+        output::json(&json!({
+            "model": self.spec.name,
+            "problem": self.problem.name,
+            "status": status(s.status),
+            "message": s.message,
+            "notes": s.notes,
+            "objective": { "name": self.problem.objective_text, "value": s.objective },
+            "parameters": named(self.spec.parameters.iter().map(|p| &p.name).collect(), &s.parameters),
+            "section": named(self.coordinate_names(), &s.section),
+            "spectral_radius": s.spectral_radius,
+            "multipliers": s.multipliers.iter().map(|m| [m.re, m.im]).collect::<Vec<_>>(),
+            "kink": s.kink.map(|k| json!({ "multiplier": [k.multiplier.re, k.multiplier.im], "gap": k.gap })),
+            "measures": named(self.spec.measures.iter().map(|m| &m.name).collect(), &s.measures),
+            "active": s.active.iter().map(|a| json!({
+                "constraint": self.constraint(a.kind),
+                "multiplier": a.multiplier,
+            })).collect::<Vec<_>>(),
+            "iterations": s.iterations,
+            "kkt_residual": s.kkt_residual,
+            "starts": { "run": s.starts.run, "converged": s.starts.converged },
+            "confirmation": s.confirmation.as_ref().map(|c| json!({
+                "residual": c.residual,
+                "measures": c.measures,
+                "linearisation": c.linearisation,
+                "maps": c.maps,
+                "remaining": c.remaining,
+            })),
+        }));
+    }
+
+    fn coordinate_names(&self) -> Vec<&String> {
+        let coordinates = self.spec.section.as_ref().map_or(&[][..], |s| &s.coordinates);
+        coordinates.iter().map(|&i| &self.spec.states[i].name).collect()
+    }
+
+    pub(super) fn print_text(&self) {
+        let s = self.solution;
+        let verb = match self.problem.sense {
+            Sense::Maximize => "maximize",
+            Sense::Minimize => "minimize",
+        };
+        let mut text = format!(
+            "{} · {} · {verb} {}\n{}: {}\n",
+            self.spec.name,
+            self.problem.name,
+            self.problem.objective_text,
+            status(s.status),
+            s.message
+        );
+        for note in &s.notes {
+            text += &format!("note: {note}\n");
+        }
+        if !s.measures.is_empty() {
+            text += &self.gait();
+        }
+        output::print(&text);
+    }
+
+    fn gait(&self) -> String {
+        let s = self.solution;
+        let mut text = format!("\n{}", output::table(&["parameter", "value", "range"], self.varied()));
+        if !s.active.is_empty() {
+            let rows = s.active.iter().map(|a| vec![self.constraint(a.kind), self.price(a)]);
+            text += &format!("\n{}", output::table(&["what limits it", "price"], rows));
+        }
+        let mut gait: Vec<Vec<String>> = (self.coordinate_names().into_iter().zip(&s.section))
+            .map(|(name, &value)| {
+                let unit = self.spec.states.iter().find(|q| &q.name == name).map_or("", |q| q.unit.as_str());
+                vec![name.clone(), format_quantity(value, unit)]
+            })
+            .collect();
+        gait.push(vec!["spectral_radius".to_owned(), format_quantity(s.spectral_radius, "")]);
+        let measures = self.spec.measures.iter().zip(&s.measures);
+        gait.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
+        text += &format!("\n{}", output::table(&["gait", "value"], gait));
+        text + &format!(
+            "\n{} iterations, KKT residual {:.0e}, {} of {} starts converged\n",
+            s.iterations, s.kkt_residual, s.starts.converged, s.starts.run
+        )
+    }
+
+    fn varied(&self) -> Vec<Vec<String>> {
+        let row = |v: &gaitc_compiler::ir::Vary| {
+            let parameter = &self.spec.parameters[v.parameter];
+            let range = format!(
+                "{} .. {}",
+                in_unit(v.lower, &parameter.unit),
+                format_quantity(v.upper, &parameter.unit)
+            );
+            vec![parameter.name.clone(), format_quantity(self.solution.parameters[v.parameter], &parameter.unit), range]
+        };
+        self.problem.vary.iter().map(row).collect()
+    }
+
+    /// A bound or constraint as the user would write it.
+    fn constraint(&self, kind: ActiveKind) -> String {
+        let bound = |parameter: usize, relation: &str, upper: bool| {
+            let p = &self.spec.parameters[parameter];
+            let vary = self.problem.vary.iter().find(|v| v.parameter == parameter);
+            let value = vary.map_or(f64::NAN, |v| if upper { v.upper } else { v.lower });
+            format!("{} {relation} {}", p.name, format_quantity(value, &p.unit))
+        };
+        match kind {
+            ActiveKind::LowerBound(parameter) => bound(parameter, ">=", false),
+            ActiveKind::UpperBound(parameter) => bound(parameter, "<=", true),
+            ActiveKind::Constraint(i) => self.problem.constraints[i].text.clone(),
+        }
+    }
+
+    /// What one natural step of the bound is worth: 0.01 of a spectral radius, one unit of a parameter, one SI unit
+    /// of anything else.
+    fn price(&self, active: &Active) -> String {
+        let (step, per) = match active.kind {
+            ActiveKind::LowerBound(i) | ActiveKind::UpperBound(i) => {
+                let unit = &self.spec.parameters[i].unit;
+                (1.0 / in_unit(1.0, unit), format!("1 {unit}"))
+            }
+            ActiveKind::Constraint(i) if self.problem.constraints[i].stability_bound.is_some() => {
+                (0.01, "0.01 of spectral radius".to_owned())
+            }
+            ActiveKind::Constraint(i) => (1.0, format_si(1.0, self.problem.constraints[i].dimension)),
+        };
+        format!("{} per {per}", format_si(active.multiplier * step, self.problem.objective_dimension))
+    }
+}
+
+fn status(status: Status) -> &'static str {
+    match status {
+        Status::Optimal => "optimal",
+        Status::Unconfirmed => "unconfirmed",
+        Status::InfeasibleLocally => "infeasible_locally",
+        Status::NoGait => "no_gait",
+        Status::Unbounded => "unbounded",
+        Status::IterationLimit => "iteration_limit",
+        Status::Stalled => "stalled",
+        Status::SubproblemFailed => "subproblem_failed",
+    }
+}

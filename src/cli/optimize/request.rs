@@ -1,0 +1,62 @@
+//! Which problem the flags ask for: the spec's default, a named one with additions, or one made of flags alone.
+
+use crate::cli::args::OptimizeArgs;
+use crate::cli::{InputError, inputs};
+use crate::load::Loaded;
+use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
+use gaitc_compiler::ir::{Model, Problem, Sense, Vary};
+
+/// The problem, and the spec with the expressions that the flags added.
+pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Problem), InputError> {
+    let mut spec = loaded.spec.clone();
+    let mut problem = match (&args.maximize, &args.minimize) {
+        (Some(text), _) => fresh(&mut spec, Sense::Maximize, text)?,
+        (None, Some(text)) => fresh(&mut spec, Sense::Minimize, text)?,
+        (None, None) => named(&spec, args.problem.as_deref())?,
+    };
+    for text in &args.vary {
+        let (name, range) = parse_assignment(text)?;
+        let parameter = inputs::parameter(loaded, "--vary", name)?;
+        let (lower, upper) = parse_range(range, spec.parameters[parameter].dimension)?;
+        problem.vary.retain(|v| v.parameter != parameter);
+        problem.vary.push(Vary { parameter, lower, upper });
+    }
+    for text in &args.subject_to {
+        problem.constraints.push(parse_constraint(&mut spec, text)?);
+    }
+    if problem.vary.is_empty() {
+        return Err(InputError(
+            "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'".to_owned(),
+        ));
+    }
+    Ok((spec, problem))
+}
+
+fn fresh(spec: &mut Model, sense: Sense, text: &str) -> Result<Problem, InputError> {
+    let (objective, objective_dimension) = parse_objective(spec, text)?;
+    Ok(Problem {
+        name: "from flags".to_owned(),
+        default: false,
+        doc: String::new(),
+        sense,
+        objective,
+        objective_text: text.to_owned(),
+        objective_dimension,
+        vary: Vec::new(),
+        constraints: Vec::new(),
+    })
+}
+
+fn named(spec: &Model, name: Option<&str>) -> Result<Problem, InputError> {
+    let names: Vec<&str> = spec.problems.iter().map(|p| p.name.as_str()).collect();
+    match name {
+        Some(name) => (spec.problems.iter().find(|p| p.name == name).cloned())
+            .ok_or_else(|| inputs::unknown("--problem", "problem", name, &names)),
+        None => (spec.problems.iter().find(|p| p.default).or(spec.problems.first()).cloned()).ok_or_else(|| {
+            InputError(format!(
+                "`{}` has no [problems]\n  help: state one: --maximize MEASURE --vary NAME=LO..HI",
+                spec.name
+            ))
+        }),
+    }
+}

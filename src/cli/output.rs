@@ -1,0 +1,38 @@
+//! Writing to the terminal: tables, JSON, errors. A closed pipe ends the program quietly.
+
+use comfy_table::{CellAlignment, Table, presets};
+use serde::Serialize;
+use std::io::Write;
+
+/// Prints text to stdout. A reader that has gone away (`| head`) is no error.
+pub(super) fn print(text: &str) {
+    let mut out = anstream::stdout();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Prints an error to stderr, with `error:` before it unless it is a rendered diagnostic, which has its own.
+pub(super) fn error(message: &str) {
+    let head = if message.starts_with("error") || message.starts_with("warning") { "" } else { "error: " };
+    let mut err = anstream::stderr();
+    let _ = writeln!(err, "{head}{}", message.trim_end());
+}
+
+/// Prints a value as JSON.
+pub(super) fn json(value: &impl Serialize) {
+    // The values printed here have string keys only, so that serialisation cannot fail.
+    print(&format!("{}\n", serde_json::to_string_pretty(value).unwrap_or_else(|e| format!("\"{e}\""))));
+}
+
+/// A table without borders: first column to the left, numbers to the right.
+pub(super) fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut table = Table::new();
+    table.load_preset(presets::NOTHING).set_header(header);
+    for row in rows {
+        table.add_row(row);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Left);
+    }
+    let lines = table.lines().map(|line| format!(" {}\n", line.trim_end()));
+    lines.collect()
+}

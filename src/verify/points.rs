@@ -1,0 +1,109 @@
+//! Random points at which derivatives are compared: parameters in their ranges, states around the section's start,
+//! branch selectors as the switching functions give them and, at every other point, turned at random (frozen selectors
+//! may be on either side).
+
+use crate::load::Loaded;
+use gaitc_compiler::ir::eval::{Environment, value};
+use gaitc_runtime::probe::Point;
+
+/// Makes random points.
+pub struct Points<'a> {
+    loaded: &'a Loaded,
+    state: u64,
+    made: usize,
+}
+
+/// A point that owns its numbers.
+pub struct Owned {
+    x: Vec<f64>,
+    k: Vec<f64>,
+    p: Vec<f64>,
+    memory: Vec<f64>,
+    functionals: Vec<f64>,
+    branch: Vec<bool>,
+    tau: f64,
+    t: f64,
+}
+
+impl Owned {
+    pub(super) fn borrow(&self) -> Point<'_> {
+        let Self { x, k, p, memory, functionals, branch, tau, t } = self;
+        Point { x, k, p, memory, functionals, branch, tau: *tau, t: *t }
+    }
+}
+
+impl<'a> Points<'a> {
+    /// Points of a model, reproducible by seed.
+    pub fn new(loaded: &'a Loaded, seed: u64) -> Self {
+        Self { loaded, state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15), made: 0 }
+    }
+
+    /// Uniform in [0, 1): splitmix64 (Steele, Lea, Flood 2014), enough for test points.
+    fn uniform(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, lower: f64, upper: f64) -> f64 {
+        lower + (upper - lower) * self.uniform()
+    }
+
+    fn parameters(&mut self) -> Vec<f64> {
+        let loaded = self.loaded;
+        let one = |p: &gaitc_compiler::ir::Parameter| match p.range {
+            Some((lower, upper)) => self.between(lower, upper),
+            None => p.value * self.between(0.8, 1.2),
+        };
+        loaded.spec.parameters.iter().map(one).collect()
+    }
+
+    /// States around the point of the section where gaits are first looked for.
+    fn states(&mut self, p: &[f64]) -> Vec<f64> {
+        let spec = &self.loaded.spec;
+        let mut center = vec![0.0; spec.states.len()];
+        if let Some(section) = &spec.section {
+            for (&i, &start) in section.coordinates.iter().zip(&section.start) {
+                center[i] = start;
+            }
+            let at = Environment { states: &center, parameters: p, ..Environment::default() };
+            let embedded: Vec<f64> = section.embed.iter().map(|&e| value(&spec.graph, e, &at)).collect();
+            center = embedded;
+        }
+        center.into_iter().map(|c| c + c.abs().max(0.2) * self.between(-1.0, 1.0)).collect()
+    }
+
+    /// The next point.
+    pub fn next_point(&mut self) -> Owned {
+        let spec = &self.loaded.spec;
+        self.made += 1;
+        let p = self.parameters();
+        let x = self.states(&p);
+        let k = spec.states.iter().map(|_| self.between(-2.0, 2.0)).collect();
+        let memory = spec.memory.iter().map(|m| m.initial as f64 + (self.uniform() * 4.0).floor()).collect::<Vec<_>>();
+        let functionals = spec.functionals.iter().map(|_| self.between(0.2, 2.0)).collect();
+        let (tau, t) = (self.between(0.0, 0.5), self.between(0.0, 5.0));
+        let mut branch = vec![false; spec.switches.len()];
+        // Selectors may depend on one another: as many passes as there are switches settle any acyclic order.
+        for _ in 0..spec.switches.len() {
+            let at = Environment {
+                states: &x,
+                parameters: &p,
+                memory: &memory,
+                branch: &branch,
+                tau,
+                time: t,
+                ..Environment::default()
+            };
+            branch = spec.switches.iter().map(|s| value(&spec.graph, s.expr, &at) >= 0.0).collect();
+        }
+        if self.made.is_multiple_of(2) {
+            for selector in &mut branch {
+                *selector = self.uniform() < 0.5;
+            }
+        }
+        Owned { x, k, p, memory, functionals, branch, tau, t }
+    }
+}

@@ -1,0 +1,115 @@
+//! The command line as a person meets it: wrong input ends in a message that says what to write instead, exit code 1.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
+
+mod common;
+
+use common::{gaitc_in, json, text};
+use std::fs;
+use std::path::Path;
+
+/// Arguments, and what stderr has to contain.
+const WRONG: &[(&[&str], &[&str])] = &[
+    (&["gait", "prescribed_lenght"], &["no compiled model is named `prescribed_lenght`", "did you mean `prescribed_length`?"]),
+    (&["gait", "../etc/passwd"], &["no compiled model"]),
+    (&["gait", "prescribed_length", "--set", "pis=20 deg"], &["no parameter is named `pis`", "did you mean `psi`?"]),
+    (&["gait", "prescribed_length", "--set", "psi"], &["psi", "="]),
+    (&["gait", "prescribed_length", "--set", "psi=20 m"], &["psi"]),
+    (&["gait", "prescribed_length", "--set", "l_s=13"], &["m"]),
+    (&["gait", "prescribed_length", "--set", "psi=1/0"], &["1/0"]),
+    (&["gait", "prescribed_length", "--guess", "r=1 m"], &["no section coordinate is named `r`", "q_theta"]),
+    (&["gait", "prescribed_length", "--tol", "0"], &["--tol", "1e-15"]),
+    (&["gait", "prescribed_length", "--tol", "nan"], &["--tol"]),
+    (&["gait", "prescribed_length", "--period", "0"], &["--period"]),
+    (&["gait", "prescribed_length", "--specs", "/nonexistent"], &["/nonexistent"]),
+    (&["optimize", "prescribed_length", "--problem", "fastst"], &["no problem is named `fastst`", "did you mean `fastest`?"]),
+    (&["optimize", "prescribed_length", "--maximize", "climb_speed"], &["nothing to vary", "--vary"]),
+    (&["optimize", "prescribed_length", "--maximize", "climbspeed", "--vary", "psi=1..45 deg"], &["climbspeed", "climb_speed"]),
+    (&["optimize", "prescribed_length", "--maximize", "spectral_radius", "--vary", "psi=1..45 deg"], &["minimi"]),
+    (&["optimize", "prescribed_length", "--vary", "psi=45..1 deg"], &["45", "1"]),
+    (&["optimize", "prescribed_length", "--vary", "psi=1..45 kg"], &["kg"]),
+    (&["optimize", "prescribed_length", "--vary", "psi=1 deg"], &[".."]),
+    (&["optimize", "prescribed_length", "--subject-to", "mean_power <= 60 [m]"], &["mean_power"]),
+    (&["optimize", "prescribed_length", "--subject-to", "mean_power"], &["mean_power", "<="]),
+    (&["optimize", "prescribed_length", "--starts", "0"], &["--starts"]),
+    (&["verify", "prescribed_length", "--samples", "0"], &["--samples"]),
+    (&["check", "no/such/file.toml"], &["no/such/file.toml"]),
+    (&["frobnicate"], &["frobnicate"]),
+];
+
+#[test]
+fn wrong_input_is_explained() {
+    for (args, parts) in WRONG {
+        let (code, _, stderr) = text(args);
+        assert_eq!(code, 1, "{args:?}: {stderr}");
+        for part in *parts {
+            assert!(stderr.contains(part), "{args:?} does not say {part:?}:\n{stderr}");
+        }
+        assert!(!stderr.contains("panicked"), "{args:?}:\n{stderr}");
+    }
+}
+
+fn copy_spec(folder: &Path, edit: impl Fn(String) -> String) {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/prescribed_length.toml")).unwrap();
+    fs::create_dir_all(folder.join("specs")).unwrap();
+    fs::write(folder.join("specs/prescribed_length.toml"), edit(text)).unwrap();
+}
+
+fn duration(folder: &Path) -> f64 {
+    let output = gaitc_in(folder, &["gait", "prescribed_length", "--json"]);
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    value["duration"].as_f64().unwrap()
+}
+
+#[test]
+fn parameter_values_are_read_at_run_time() {
+    let folder = tempfile::tempdir().unwrap();
+    approx::assert_relative_eq!(duration(folder.path()), 1.0 / 6.0, max_relative = 1e-12);
+    copy_spec(folder.path(), |text| text.replace("\"2*pi*3 rad/s\"", "\"2*pi*2.5 rad/s\""));
+    approx::assert_relative_eq!(duration(folder.path()), 1.0 / 5.0, max_relative = 1e-12);
+}
+
+#[test]
+fn changed_equations_ask_for_a_rebuild() {
+    let folder = tempfile::tempdir().unwrap();
+    copy_spec(folder.path(), |text| text.replace("-g*sin(q_theta) -", "-2*g*sin(q_theta) -"));
+    let output = gaitc_in(folder.path(), &["gait", "prescribed_length"]);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    assert!(stderr.contains("rebuild") && stderr.contains("specs/prescribed_length.toml"), "{stderr}");
+}
+
+#[test]
+fn check_names_every_problem_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    copy_spec(folder.path(), |text| text.replace("p_theta/r\"", "p_thta/r\"").replace("q_theta + delta", "q_theta + p_theta"));
+    let path = folder.path().join("specs/prescribed_length.toml");
+    let output = gaitc_in(folder.path(), &["check", path.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let diagnostics = value["diagnostics"].as_array().unwrap();
+    assert_eq!(diagnostics.len(), 3, "{value:#}");
+    for d in diagnostics {
+        assert!(d["line"].as_u64().unwrap() > 1 && d["column"].as_u64().unwrap() > 1, "{d}");
+        assert!(d["code"].as_str().unwrap().starts_with('E'), "{d}");
+    }
+}
+
+#[test]
+fn a_gait_that_is_not_there_is_an_outcome() {
+    // A step that ends 0.001 s before the time limit of a map cannot be shown to end at all.
+    let (code, value) = json(&["gait", "prescribed_length", "--set", "omega=0.001 rad/s"]);
+    assert_eq!(code, 2, "{value:#}");
+    assert_eq!(value["status"].as_str(), Some("no_event"), "{value:#}");
+    assert!(!value["message"].as_str().unwrap().is_empty());
+}
+
+#[test]
+fn models_and_help_are_there() {
+    let (code, value) = json(&["models"]);
+    assert_eq!(code, 0);
+    assert!(value["models"].as_array().unwrap().iter().any(|m| m["model"] == "prescribed_length"), "{value:#}");
+    for args in [&["--help"][..], &["gait", "--help"], &["optimize", "--help"], &["--version"]] {
+        assert_eq!(text(args).0, 0, "{args:?}");
+    }
+}
