@@ -14,7 +14,7 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["gait", "../etc/passwd"], &["no compiled model"]),
     (&["gait", "prescribed_length", "--set", "pis=20 deg"], &["no parameter is named `pis`", "did you mean `psi`?"]),
     (&["gait", "prescribed_length", "--set", "psi"], &["psi", "="]),
-    (&["gait", "prescribed_length", "--set", "psi=20 m"], &["psi"]),
+    (&["gait", "prescribed_length", "--set", "psi=20 m"], &["20 m", "deg"]),
     (&["gait", "prescribed_length", "--set", "l_s=13"], &["m"]),
     (&["gait", "prescribed_length", "--set", "psi=1/0"], &["1/0"]),
     (&["gait", "prescribed_length", "--guess", "r=1 m"], &["no section coordinate is named `r`", "q_theta"]),

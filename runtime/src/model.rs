@@ -88,9 +88,7 @@ pub struct Integrated<S, const N: usize, const Q: usize, const C: usize> {
 }
 
 /// A compiled model.
-pub trait Model<const N: usize, const P: usize, const Q: usize>:
-    Copy + Default + Send + Sync + 'static
-{
+pub trait Model<const N: usize, const P: usize, const Q: usize>: Copy + Default + Send + Sync + 'static {
     /// Names, units and structure.
     const INFO: &'static ModelInfo;
 
@@ -135,39 +133,22 @@ pub trait Model<const N: usize, const P: usize, const Q: usize>:
     fn switch<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
 
     /// Switching function with all first derivatives.
-    fn switch_gradient<S: Scalar>(
-        index: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Gradient<S, N, P>;
+    fn switch_gradient<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P>;
 
     /// Guard of a transition.
     fn guard<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
 
     /// Guard with all first derivatives.
-    fn guard_gradient<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Gradient<S, N, P>;
+    fn guard_gradient<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P>;
 
     /// Margin of a transition's `when`: enabled where it is `>= 0`; the constant 1 without `when`.
     fn when<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
 
     /// State after a transition; `memory` receives the new memory (length of [`ModelInfo::memory`]).
-    fn reset<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-        memory: &mut [S],
-    ) -> [S; N];
+    fn reset<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>, memory: &mut [S]) -> [S; N];
 
     /// State after a transition with all first derivatives.
-    fn reset_jacobian<S: Scalar>(
-        transition: usize,
-        x: &[S; N],
-        env: &Env<'_, S, P>,
-    ) -> Jacobian<S, N, P>;
+    fn reset_jacobian<S: Scalar>(transition: usize, x: &[S; N], env: &Env<'_, S, P>) -> Jacobian<S, N, P>;
 
     /// Full state on the section from its coordinates `z` (length of [`ModelInfo::coordinates`]).
     fn embed<S: Scalar>(z: &[S], p: &[S; P]) -> [S; N];
@@ -192,12 +173,7 @@ pub trait Model<const N: usize, const P: usize, const Q: usize>:
 
     /// Derivatives of the measures: with respect to the functionals (`dfunctionals`, row-major, one row a measure) and
     /// the parameters (`dp`, one array a measure).
-    fn measures_jacobian<S: Scalar>(
-        functionals: &[S],
-        p: &[S; P],
-        dfunctionals: &mut [S],
-        dp: &mut [[S; P]],
-    );
+    fn measures_jacobian<S: Scalar>(functionals: &[S], p: &[S; P], dfunctionals: &mut [S], dp: &mut [[S; P]]);
 }
 
 /// Name and unit of a number.

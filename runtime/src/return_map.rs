@@ -23,12 +23,7 @@ pub struct Accuracy {
 
 impl Default for Accuracy {
     fn default() -> Self {
-        Self {
-            relative: 1e-12,
-            absolute: 1e-13,
-            time_limit: 100.0,
-            step_limit: 100_000,
-        }
+        Self { relative: 1e-12, absolute: 1e-13, time_limit: 100.0, step_limit: 100_000 }
     }
 }
 

@@ -78,9 +78,7 @@ macro_rules! forward {
 impl Scalar for f64 {
     type Mask = bool;
 
-    forward!(
-        sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, sqrt, abs
-    );
+    forward!(sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, sqrt, abs);
 
     #[inline]
     fn constant(value: f64) -> Self {

@@ -15,17 +15,9 @@ fn published_multipliers() {
         let p = parameters(psi);
         let found = [0.2, 0.5, 0.8, 1.2, 2.0].iter().any(|guess| {
             let outcome = find_gait(&M_A, &GaitRequest::new(&p, &[]), &[*guess]).unwrap();
-            println!("{psi} {guess} {:?} {}", outcome.status, outcome.message);
-            let Some(gait) = outcome
-                .gait
-                .filter(|_| outcome.status == GaitStatus::Converged)
-            else {
+            let Some(gait) = outcome.gait.filter(|_| outcome.status == GaitStatus::Converged) else {
                 return false;
             };
-            println!(
-                "{} {:?} {:?}",
-                gait.coordinates, gait.multipliers, gait.map.statistics
-            );
             gait.coordinates[0] > 0.05 && (gait.multipliers[0].re - multiplier).abs() < 5e-4
         });
         assert!(found, "no gait with multiplier {multiplier} at {psi} deg");
@@ -35,12 +27,7 @@ fn published_multipliers() {
 #[test]
 fn derivatives_agree_with_differences() {
     let p = parameters(10.0);
-    check_derivatives(
-        &M_A,
-        &request(&[0.9], &p, Sensitivity::None),
-        &[0, 1, 2, 3, 4],
-        1e-8,
-    );
+    check_derivatives(&M_A, &request(&[0.9], &p, Sensitivity::None), &[0, 1, 2, 3, 4], 1e-8);
 }
 
 #[test]

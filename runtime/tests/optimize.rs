@@ -322,8 +322,8 @@ fn the_edge_of_existence_of_a_gait_is_an_optimum() {
     let mut problem = problem(&map, Sense::Minimize, expression(|_, p| p[0]), &[0.49], &[(-1.0, 1.0)]);
     problem.start = vec![0.6];
     let solution = solved(&problem);
-    println!("{solution:?}");
     assert_eq!(solution.status, Status::Optimal);
     assert_relative_eq!(solution.parameters[0], 0.0, epsilon = 1e-8);
     assert_relative_eq!(solution.spectral_radius, 1.0, epsilon = 1e-4);
+    assert!(solution.message.contains("a multiplier is 1"), "{}", solution.message);
 }

@@ -1,6 +1,7 @@
 //! Running the gaitc binary from tests.
 
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used)] // shared by several test files; a test may fail loudly
+#![allow(dead_code, unreachable_pub)] // shared by several test files, none of which uses all of it
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
 use serde_json::Value;
 use std::path::Path;

@@ -2,8 +2,9 @@
 //!
 //! So the guard that has just fired neither fires again at once nor is lost.
 
-use super::surface::{Reading, Side};
-use crate::model::Direction;
+use super::frame::Frame;
+use super::surface::{Reading, Side, Surface};
+use crate::model::{Direction, Model};
 
 /// How far ahead, as fractions of a typical step, the function is looked at when value and rate are both zero.
 const LOOK_AHEAD: [f64; 3] = [1e-2, 1e-1, 1.0];
@@ -21,30 +22,18 @@ pub(crate) struct Start {
 /// after a short time d.
 pub(crate) fn arm(reading: &Reading, typical: f64, ahead: &impl Fn(f64) -> f64) -> Start {
     if reading.value.abs() > reading.rounding {
-        return Start {
-            side: Side::of(reading.value),
-            tangent: false,
-        };
+        return Start { side: Side::of(reading.value), tangent: false };
     }
     if (reading.rate * typical).abs() > reading.rounding {
-        return Start {
-            side: Side::of(reading.rate),
-            tangent: false,
-        };
+        return Start { side: Side::of(reading.rate), tangent: false };
     }
     for fraction in LOOK_AHEAD {
         let value = ahead(fraction * typical);
         if value.abs() > reading.rounding {
-            return Start {
-                side: Side::of(value),
-                tangent: true,
-            };
+            return Start { side: Side::of(value), tangent: true };
         }
     }
-    Start {
-        side: Side::Unknown,
-        tangent: true,
-    }
+    Start { side: Side::Unknown, tangent: true }
 }
 
 /// Whether a segment that starts so ends at once: it stands on the guard, with no rate, and turns the way that fires.
@@ -55,4 +44,20 @@ pub(crate) fn ends_at_once(start: Start, direction: Direction) -> bool {
         Direction::Either => false,
     };
     start.tangent && fires
+}
+
+/// [`arm`] for a surface of a run that stands at (`tau`, `x`).
+pub(crate) fn start_side<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    surface: Surface,
+    reading: &Reading,
+    tau: f64,
+    x: &[f64; N],
+    typical: f64,
+) -> Start {
+    let ahead = |d: f64| {
+        let later = frame.short_step::<M, N, Q>(tau, x, &frame.flow::<M, N, Q>(tau, x), d);
+        frame.read::<M, N, Q>(surface, tau + d, &later).value
+    };
+    arm(reading, typical, &ahead)
 }

@@ -14,12 +14,7 @@ const HALVINGS: usize = 60;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Passage {
     /// It is crossed at `at`, between `low` and `high`, leaving side `from`.
-    Crossing {
-        low: f64,
-        high: f64,
-        at: f64,
-        from: Side,
-    },
+    Crossing { low: f64, high: f64, at: f64, from: Side },
     /// It is touched at this place.
     Touch { at: f64 },
 }
@@ -62,34 +57,18 @@ pub(crate) fn passage(
     rate: &impl Fn(f64) -> f64,
 ) -> Option<Passage> {
     if changes_sign(side, h, start, end) {
-        return if side.leaves(direction) {
-            Some(sign_change(side, start, end, value))
-        } else {
-            None
-        };
+        return if side.leaves(direction) { Some(sign_change(side, start, end, value)) } else { None };
     }
     let turn = root(rate, 0.0, start.rate, 1.0, end.rate);
     let extreme = value(turn);
     if side.sign() * extreme < 0.0 {
         if side.leaves(direction) {
-            let end = Reading {
-                value: extreme,
-                ..*end
-            };
-            return Some(scaled(
-                sign_change(side, start, &end, &|u| value(u * turn)),
-                0.0,
-                turn,
-            ));
+            let end = Reading { value: extreme, ..*end };
+            return Some(scaled(sign_change(side, start, &end, &|u| value(u * turn)), 0.0, turn));
         }
         let from = side.opposite();
         let at = root(value, turn, extreme, 1.0, end.value);
-        return Some(Passage::Crossing {
-            low: turn,
-            high: 1.0,
-            at,
-            from,
-        });
+        return Some(Passage::Crossing { low: turn, high: 1.0, at, from });
     }
     let touches = side.leaves(direction) && extreme.abs() <= TOUCH * largest;
     touches.then_some(Passage::Touch { at: turn })
@@ -98,12 +77,7 @@ pub(crate) fn passage(
 fn sign_change(side: Side, start: &Reading, end: &Reading, value: &impl Fn(f64) -> f64) -> Passage {
     if side.sign() * end.value > 0.0 {
         // Zero to rounding at the end, on the way through.
-        return Passage::Crossing {
-            low: 1.0,
-            high: 1.0,
-            at: 1.0,
-            from: side,
-        };
+        return Passage::Crossing { low: 1.0, high: 1.0, at: 1.0, from: side };
     }
     let (mut low, mut low_value) = (0.0, start.value);
     if side.sign() * start.value <= start.rounding {
@@ -117,37 +91,19 @@ fn sign_change(side: Side, start: &Reading, end: &Reading, value: &impl Fn(f64) 
             }
         }
         if side.sign() * low_value <= 0.0 {
-            return Passage::Crossing {
-                low: 0.0,
-                high: low,
-                at: 0.0,
-                from: side,
-            };
+            return Passage::Crossing { low: 0.0, high: low, at: 0.0, from: side };
         }
     }
     let at = root(value, low, low_value, 1.0, end.value);
-    Passage::Crossing {
-        low,
-        high: 1.0,
-        at,
-        from: side,
-    }
+    Passage::Crossing { low, high: 1.0, at, from: side }
 }
 
 fn scaled(passage: Passage, offset: f64, width: f64) -> Passage {
     let map = |u: f64| offset + width * u;
     match passage {
-        Passage::Crossing {
-            low,
-            high,
-            at,
-            from,
-        } => Passage::Crossing {
-            low: map(low),
-            high: map(high),
-            at: map(at),
-            from,
-        },
+        Passage::Crossing { low, high, at, from } => {
+            Passage::Crossing { low: map(low), high: map(high), at: map(at), from }
+        }
         Passage::Touch { at } => Passage::Touch { at: map(at) },
     }
 }

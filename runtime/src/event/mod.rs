@@ -1,14 +1,19 @@
 //! Events: where a guard or a switching function passes zero, found in a step and located to rounding error.
 //!
-//! [`Surface`] is what is watched, [`Side`] where the run is relative to it, [`arming`] decides that at the start of a
-//! segment, [`crossing`] finds passages on the dense output, [`locate`] makes them exact by re-stepping.
+//! [`Surface`] is what is watched, [`Side`] where the run is relative to it, `arming` decides that at the start of a
+//! segment, `selectors` likewise for the branch selectors, `crossing` finds passages on the dense output, `locate` makes
+//! them exact by re-stepping, `watch` puts it together.
 
-pub(crate) mod arming;
-pub(crate) mod crossing;
-pub(crate) mod locate;
+mod arming;
+mod crossing;
+mod frame;
+mod locate;
 mod root;
+pub(crate) mod selectors;
 mod surface;
+mod watch;
 
+pub(crate) use frame::{Frame, StateStep};
 pub(crate) use root::root;
-pub(crate) use surface::gradient;
-pub(crate) use surface::{Reading, Side, Surface, read};
+pub(crate) use surface::{Side, Surface, gradient, read};
+pub(crate) use watch::{Found, Watched, first_events, watch};

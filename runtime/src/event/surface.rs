@@ -111,10 +111,5 @@ pub(crate) fn read<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: u
         size += (g.dp[i] * env.p[i]).abs();
     }
     let rate = dot(&g.dx, flow) + g.dtau + g.dt;
-    Reading {
-        value: g.value,
-        rate,
-        rounding: ROUNDING * size,
-        clock_only,
-    }
+    Reading { value: g.value, rate, rounding: ROUNDING * size, clock_only }
 }

@@ -8,14 +8,13 @@ use super::functionals::{Variation, Varied, along, observe};
 use super::passing::Place;
 use super::rates::Rates;
 use super::run::Run;
-use crate::event::locate::restep;
-use crate::event::root;
+use super::segment::state_step;
+use crate::event::{Frame, StateStep, root};
 use crate::model::Model;
-use crate::ode::{Bundle, Dense, attempt};
+use crate::ode::Dense;
 use crate::sensitivity::dot;
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
-    Run<'_, M, R, N, P, Q, W, C>
+impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
 where
     M: Model<N, P, Q>,
     R: Rates<M, N, P, Q, W, C>,
@@ -30,23 +29,10 @@ where
     pub(crate) fn observe_boundary(&mut self, place: &Place<N, C>) {
         let (segment, x, tau) = (&self.segment, &self.step.start.x, self.step.tau);
         for extremum in &mut self.functionals.extrema {
-            let candidate = observe::<M, N, P, Q, C>(
-                extremum.observable,
-                segment.mode,
-                x,
-                &segment.env(tau),
-                |g, c| {
-                    along(
-                        g,
-                        Variation {
-                            dx: &place.dx[c],
-                            dp: &segment.dp[c],
-                            dtau: place.dtau[c],
-                            dt: place.dt[c],
-                        },
-                    )
-                },
-            );
+            let candidate =
+                observe::<M, N, P, Q, C>(extremum.observable, segment.mode, x, &segment.env(tau), |g, c| {
+                    along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: place.dtau[c], dt: place.dt[c] })
+                });
             extremum.offer(candidate);
         }
     }
@@ -56,104 +42,114 @@ where
         self.observe_boundary(place);
         for e in 0..self.functionals.extrema.len() {
             let extremum = self.functionals.extrema[e];
-            let (value, rate) = self.slope(
-                extremum.observable,
-                self.step.tau,
-                &self.step.start.x,
-                &self.step.stages[0].x,
-            );
+            let (value, rate) =
+                self.slope(extremum.observable, self.step.tau, &self.step.start.x, &self.step.stages[0].x);
             self.functionals.extrema[e].last = (extremum.sense * value, extremum.sense * rate);
         }
     }
 
     /// Looks for extrema inside the current step.
     pub(crate) fn examine_extrema(&mut self) {
-        let mut dense = None;
+        let end_tau = self.step.tau + self.step.h;
         for e in 0..self.functionals.extrema.len() {
             let extremum = self.functionals.extrema[e];
-            let (o, sense, (v0, r0)) = (extremum.observable, extremum.sense, extremum.last);
-            let end_tau = self.step.tau + self.step.h;
+            let (o, sense, start) = (extremum.observable, extremum.sense, extremum.last);
             let (value, rate) = self.slope(o, end_tau, &self.step.end.x, &self.step.end_rates.x);
-            let (v1, r1) = (sense * value, sense * rate);
-            self.functionals.extrema[e].last = (v1, r1);
-            let inner = inner_turn((v0, r0), (v1, r1), self.step.h);
-            if !(r0 > 0.0 && r1 < 0.0) && inner.is_none() {
-                continue;
-            }
-            let segment = &self.segment;
-            let flow = |tau: f64, x: &[f64; N]| Self::flow(segment, tau, x);
-            let dense: &Dense<N> = dense.get_or_insert_with(|| Dense::new(&self.step, &flow));
-            let rate_at = |u: f64| {
-                let (x, tau) = (dense.at(u), self.step.tau + u * self.step.h);
-                sense * self.slope(o, tau, &x, &flow(tau, &x)).1
-            };
-            // A maximum is where the rate turns from positive to negative.
-            let bracket = match inner {
-                _ if r0 > 0.0 && r1 < 0.0 => Some((0.0, r0, 1.0, r1)),
-                Some(u) if r0 > 0.0 => Some((0.0, r0, u, rate_at(u))),
-                Some(u) => Some((u, rate_at(u), 1.0, r1)),
-                None => None,
-            };
-            let Some((a, ra, b, rb)) = bracket.filter(|(_, ra, _, rb)| *ra > 0.0 && *rb < 0.0)
-            else {
+            let end = (sense * value, sense * rate);
+            self.functionals.extrema[e].last = end;
+            let Some(bracket) = bracket(start, end, self.step.h) else {
                 continue;
             };
-            let u = root(rate_at, a, ra, b, rb);
-            let value = M::observable(
-                o,
-                segment.mode,
-                &dense.at(u),
-                &segment.env(self.step.tau + u * self.step.h),
-            );
-            let margin = 1e-6 * (v0.abs() + v1.abs());
-            if extremum
-                .best
-                .is_none_or(|best| sense * value > sense * best.value - margin)
-            {
-                let near = (1e-4_f64).min(0.5 * u.min(1.0 - u)).max(1e-9);
-                let bend = (rate_at(u + near) - rate_at(u - near)) / (2.0 * near * self.step.h);
-                let candidate = self.polish(o, sense, u * self.step.h, bend);
+            let better_than = extremum.best.map_or(f64::NEG_INFINITY, |best| sense * best.value);
+            let better_than = better_than - 1e-6 * (start.0.abs() + end.0.abs());
+            let peak = Peak { observable: o, sense, bracket, better_than };
+            let step = state_step(&self.step);
+            let found = peak.find::<M, N, P, Q>(self.segment.frame(), &step, (start.1, end.1));
+            self.statistics.evaluations += 3;
+            if let Some(h) = found {
+                let candidate = self.observe_inside(o, h);
                 self.functionals.extrema[e].offer(candidate);
-                self.statistics.evaluations += 26;
+                self.statistics.evaluations += 23;
             }
         }
     }
 
-    /// Value and derivatives of an observable at its extremum near `h` after the start of the step; `bend` is the
-    /// derivative of `sense` times its rate there.
-    fn polish(&self, observable: usize, sense: f64, h: f64, bend: f64) -> Varied<C> {
-        let (segment, tau) = (&self.segment, self.step.tau);
-        let flow = |tau: f64, x: &[f64; N]| Self::flow(segment, tau, x);
-        let x = restep(&flow, &self.step, h);
-        let rate = sense * self.slope(observable, tau + h, &x, &flow(tau + h, &x)).1;
-        let newton = h - rate / bend;
-        // The correction is of the size of the dense output's error; anything else means that there is no bend.
-        let h = if (newton - h).abs() <= 1e-3 * self.step.h {
-            newton
-        } else {
-            h
-        };
+    /// An observable with its derivatives `h` after the start of the step, where it is extremal: its place does not
+    /// matter to first order.
+    fn observe_inside(&self, observable: usize, h: f64) -> Varied<C> {
+        let (segment, tau) = (&self.segment, self.step.tau + h);
         let mut k = self.step.stages;
-        let rates = |tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y);
-        let y = attempt(&rates, tau, h, &self.step.start, &mut k);
-        observe::<M, N, P, Q, C>(
-            observable,
-            segment.mode,
-            &y.x,
-            &segment.env(tau + h),
-            |g, c| {
-                along(
-                    g,
-                    Variation {
-                        dx: &y.dx[c],
-                        dp: &segment.dp[c],
-                        dtau: 0.0,
-                        dt: segment.dstart[c],
-                    },
-                )
-            },
-        )
+        let y = Self::attempt(segment, self.step.tau, h, &self.step.start, &mut k);
+        observe::<M, N, P, Q, C>(observable, segment.mode, &y.x, &segment.env(tau), |g, c| {
+            along(g, Variation { dx: &y.dx[c], dp: &segment.dp[c], dtau: 0.0, dt: segment.dstart[c] })
+        })
     }
+}
+
+/// Where in a step a maximum of `sense` times an observable is looked for.
+#[derive(Clone, Copy, Debug)]
+struct Peak {
+    observable: usize,
+    sense: f64,
+    bracket: Bracket,
+    /// Smaller maxima do not matter.
+    better_than: f64,
+}
+
+/// Between which fractions of the step the rate turns from positive to negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bracket {
+    Whole,
+    Until(f64),
+    From(f64),
+}
+
+impl Peak {
+    /// The time after the start of the step, from the dense output and one Newton step on the true rate.
+    #[inline(never)]
+    fn find<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+        &self,
+        frame: Frame<'_, P>,
+        step: &StateStep<N>,
+        (r0, r1): (f64, f64),
+    ) -> Option<f64> {
+        let flow = |tau: f64, x: &[f64; N]| frame.flow::<M, N, Q>(tau, x);
+        let dense: Dense<N> = Dense::new(step, &flow);
+        let rate_of = |tau: f64, x: &[f64; N]| {
+            let g = M::observable_gradient(self.observable, frame.mode, x, &frame.env(tau));
+            self.sense * (dot(&g.dx, &flow(tau, x)) + g.dtau + g.dt)
+        };
+        let rate = |u: f64| rate_of(step.tau + u * step.h, &dense.at(u));
+        let (a, ra, b, rb) = match self.bracket {
+            Bracket::Whole => (0.0, r0, 1.0, r1),
+            Bracket::Until(u) => (0.0, r0, u, rate(u)),
+            Bracket::From(u) => (u, rate(u), 1.0, r1),
+        };
+        if !(ra > 0.0 && rb < 0.0) {
+            return None;
+        }
+        let u = root(rate, a, ra, b, rb);
+        let value = M::observable(self.observable, frame.mode, &dense.at(u), &frame.env(step.tau + u * step.h));
+        // Written so that NaN is looked at.
+        if self.sense * value < self.better_than {
+            return None;
+        }
+        let near = (1e-4_f64).min(0.5 * u.min(1.0 - u)).max(1e-9);
+        let bend = (rate(u + near) - rate(u - near)) / (2.0 * near * step.h);
+        let h = u * step.h;
+        let correction = rate_of(step.tau + h, &frame.restep::<M, N, Q>(step, h)) / bend;
+        // The correction is of the size of the dense output's error; anything else means that there is no bend.
+        Some(if correction.abs() <= 1e-3 * step.h { h - correction } else { h })
+    }
+}
+
+/// Whether a maximum may lie inside a step, from values and rates at its ends.
+fn bracket((v0, r0): (f64, f64), (v1, r1): (f64, f64), h: f64) -> Option<Bracket> {
+    if r0 > 0.0 && r1 < 0.0 {
+        return Some(Bracket::Whole);
+    }
+    let inner = inner_turn((v0, r0), (v1, r1), h)?;
+    Some(if r0 > 0.0 { Bracket::Until(inner) } else { Bracket::From(inner) })
 }
 
 /// Where the rate of the cubic through values and rates at both ends is smallest or largest, if it has a zero there that

@@ -29,10 +29,7 @@ pub(crate) struct Varied<const C: usize> {
 }
 
 /// The chain rule for a scalar function.
-pub(crate) fn along<const N: usize, const P: usize>(
-    g: &Gradient<f64, N, P>,
-    v: Variation<'_, N, P>,
-) -> f64 {
+pub(crate) fn along<const N: usize, const P: usize>(g: &Gradient<f64, N, P>, v: Variation<'_, N, P>) -> f64 {
     dot(&g.dx, v.dx) + dot(&g.dp, v.dp) + g.dtau * v.dtau + g.dt * v.dt
 }
 
@@ -54,9 +51,7 @@ pub(crate) struct Extremum<const C: usize> {
 impl<const C: usize> Extremum<C> {
     /// Takes a candidate if it is better than the best so far.
     pub(crate) fn offer(&mut self, candidate: Varied<C>) {
-        let better = self
-            .best
-            .is_none_or(|best| self.sense * candidate.value > self.sense * best.value);
+        let better = self.best.is_none_or(|best| self.sense * candidate.value > self.sense * best.value);
         if better || candidate.value.is_nan() {
             self.best = Some(candidate);
         }
@@ -84,19 +79,9 @@ impl<const C: usize> Functionals<C> {
                 Functional::Minimum(o) => (o, -1.0),
                 _ => continue,
             };
-            extrema.push(Extremum {
-                functional,
-                observable,
-                sense,
-                last: (0.0, 0.0),
-                best: None,
-            });
+            extrema.push(Extremum { functional, observable, sense, last: (0.0, 0.0), best: None });
         }
-        Self {
-            extrema,
-            starts: Vec::new(),
-            ends: Vec::new(),
-        }
+        Self { extrema, starts: Vec::new(), ends: Vec::new() }
     }
 
     /// Records the observables of all `Start` functionals.
@@ -124,23 +109,16 @@ impl<const C: usize> Functionals<C> {
         integral: impl Fn(usize) -> Varied<C>,
         duration: Varied<C>,
     ) -> Vec<Varied<C>> {
-        let recorded =
-            |list: &[(usize, Varied<C>)], i| list.iter().find(|(f, _)| *f == i).map(|(_, v)| *v);
-        let missing = Varied {
-            value: f64::NAN,
-            gradient: [f64::NAN; C],
-        };
+        let recorded = |list: &[(usize, Varied<C>)], i| list.iter().find(|(f, _)| *f == i).map(|(_, v)| *v);
+        let missing = Varied { value: f64::NAN, gradient: [f64::NAN; C] };
         let one = |(i, kind): (usize, &Functional)| match *kind {
             Functional::Integral(k) => integral(k),
             Functional::Mean(k) => quotient(integral(k), duration),
             Functional::Start(_) => recorded(&self.starts, i).unwrap_or(missing),
             Functional::End(_) => recorded(&self.ends, i).unwrap_or(missing),
-            Functional::Maximum(_) | Functional::Minimum(_) => self
-                .extrema
-                .iter()
-                .find(|e| e.functional == i)
-                .and_then(|e| e.best)
-                .unwrap_or(missing),
+            Functional::Maximum(_) | Functional::Minimum(_) => {
+                self.extrema.iter().find(|e| e.functional == i).and_then(|e| e.best).unwrap_or(missing)
+            }
             Functional::Duration => duration,
         };
         info.functionals.iter().enumerate().map(one).collect()
@@ -149,20 +127,11 @@ impl<const C: usize> Functionals<C> {
 
 fn quotient<const C: usize>(a: Varied<C>, b: Varied<C>) -> Varied<C> {
     let value = a.value / b.value;
-    Varied {
-        value,
-        gradient: core::array::from_fn(|c| (a.gradient[c] - value * b.gradient[c]) / b.value),
-    }
+    Varied { value, gradient: core::array::from_fn(|c| (a.gradient[c] - value * b.gradient[c]) / b.value) }
 }
 
 /// An observable with its derivatives along columns given by `variation`.
-pub(crate) fn observe<
-    M: Model<N, P, Q>,
-    const N: usize,
-    const P: usize,
-    const Q: usize,
-    const C: usize,
->(
+pub(crate) fn observe<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>(
     index: usize,
     mode: usize,
     x: &[f64; N],
@@ -170,8 +139,5 @@ pub(crate) fn observe<
     gradient: impl Fn(&Gradient<f64, N, P>, usize) -> f64,
 ) -> Varied<C> {
     let g = M::observable_gradient(index, mode, x, env);
-    Varied {
-        value: g.value,
-        gradient: core::array::from_fn(|c| gradient(&g, c)),
-    }
+    Varied { value: g.value, gradient: core::array::from_fn(|c| gradient(&g, c)) }
 }

@@ -18,8 +18,7 @@ pub(crate) struct Coordinates<const N: usize, const C: usize> {
     pub(crate) dz: [[f64; N]; C],
 }
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
-    Run<'_, M, R, N, P, Q, W, C>
+impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
 where
     M: Model<N, P, Q>,
     R: Rates<M, N, P, Q, W, C>,
@@ -37,17 +36,14 @@ where
             if turn == 0 {
                 first = self.step.start.x;
             }
-            self.segment.mode = M::INFO
-                .transitions
-                .get(section)
-                .map_or(usize::MAX, |t| t.to);
+            self.segment.mode = M::INFO.transitions.get(section).map_or(usize::MAX, |t| t.to);
             self.segment.memory.clear();
             self.segment.memory.extend_from_slice(request.memory);
             self.step.tau = 0.0;
             self.deadline = self.segment.start + self.accuracy.time_limit;
             self.check_finite()?;
             self.begin(turn == 0 && request.measures)?;
-            self.to_section(section, turn + 1 == request.period && request.measures)?;
+            self.run_to_section(section, turn + 1 == request.period && request.measures)?;
             at = self.project();
         }
         Ok((at, first))
@@ -56,32 +52,20 @@ where
     /// Starts the segment that follows the start of a map or a transition.
     fn begin(&mut self, record: bool) -> Result<(), StopReason> {
         self.enter(None)?;
-        let place = Place {
-            dx: self.step.start.dx,
-            dtau: [0.0; C],
-            dt: self.segment.dstart,
-        };
+        let place = Place { dx: self.step.start.dx, dtau: [0.0; C], dt: self.segment.dstart };
         self.begin_extrema(&place);
         if record {
             let (segment, x) = (&self.segment, &self.step.start.x);
             self.functionals.record_start(M::INFO, |o| {
                 observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(0.0), |g, c| {
-                    along(
-                        g,
-                        Variation {
-                            dx: &place.dx[c],
-                            dp: &segment.dp[c],
-                            dtau: 0.0,
-                            dt: place.dt[c],
-                        },
-                    )
+                    along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: 0.0, dt: place.dt[c] })
                 })
             });
         }
         Ok(())
     }
 
-    fn to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
+    fn run_to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
         loop {
             self.advance()?;
             let found = self.first_events();
@@ -102,9 +86,7 @@ where
     }
 
     fn fires(&self, watched: usize, section: usize) -> bool {
-        self.watched
-            .get(watched)
-            .is_some_and(|w| w.surface == crate::event::Surface::Transition(section))
+        self.watched.get(watched).is_some_and(|w| w.surface == crate::event::Surface::Transition(section))
     }
 
     fn embed(&mut self, at: &Coordinates<N, C>) {
@@ -115,11 +97,7 @@ where
             return;
         }
         let mut by_z = [[0.0; N]; N];
-        let by_p = M::embed_jacobian(
-            z,
-            self.segment.p,
-            by_z.get_mut(..z.len()).unwrap_or(&mut []),
-        );
+        let by_p = M::embed_jacobian(z, self.segment.p, by_z.get_mut(..z.len()).unwrap_or(&mut []));
         for c in 0..C {
             for i in 0..N {
                 let mut sum = 0.0;
@@ -154,16 +132,8 @@ where
                 }
             }
         }
-        let mut result = Coordinates {
-            z: [0.0; N],
-            dz: [[0.0; N]; C],
-        };
-        for (k, &i) in M::INFO
-            .coordinates
-            .iter()
-            .enumerate()
-            .filter(|(k, i)| *k < N && **i < N)
-        {
+        let mut result = Coordinates { z: [0.0; N], dz: [[0.0; N]; C] };
+        for (k, &i) in M::INFO.coordinates.iter().enumerate().filter(|(k, i)| *k < N && **i < N) {
             result.z[k] = x[i];
             for c in 0..C {
                 result.dz[c][k] = dx[c][i];
@@ -177,19 +147,13 @@ where
         let y = &self.step.start;
         let integral = |k: usize| {
             let value = y.q.get(k).copied().unwrap_or(f64::NAN);
-            Varied {
-                value,
-                gradient: core::array::from_fn(|c| y.dq[c].get(k).copied().unwrap_or(f64::NAN)),
-            }
+            Varied { value, gradient: core::array::from_fn(|c| y.dq[c].get(k).copied().unwrap_or(f64::NAN)) }
         };
         self.functionals.finish(M::INFO, integral, self.duration())
     }
 
     /// Duration of the map so far, at an event.
     pub(crate) fn duration(&self) -> Varied<C> {
-        Varied {
-            value: self.segment.start,
-            gradient: self.segment.dstart,
-        }
+        Varied { value: self.segment.start, gradient: self.segment.dstart }
     }
 }

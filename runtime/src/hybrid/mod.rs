@@ -13,9 +13,7 @@ mod run;
 mod segment;
 
 use crate::model::{Model, ModelInfo};
-use crate::return_map::{
-    MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
-};
+use crate::return_map::{MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop, StopReason};
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::Coordinates;
@@ -23,8 +21,9 @@ use nalgebra::{DMatrix, DVector};
 use rates::{Bare, Rates, Whole};
 use run::Run;
 
-/// The largest number of columns in one pass.
-const WIDEST: usize = 8;
+/// The largest numbers of columns in one pass. Each width is compiled for each model, so there are few.
+const WIDEST_BARE: usize = 4;
+const WIDEST_WHOLE: usize = 8;
 
 /// The return map of a compiled model.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,19 +35,12 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         const {
             assert!(M::INFO.states.len() == N, "number of states");
             assert!(M::INFO.parameters.len() == P, "number of parameters");
-            assert!(
-                M::INFO.coordinates.len() <= N,
-                "more section coordinates than states"
-            );
+            assert!(M::INFO.coordinates.len() <= N, "more section coordinates than states");
         }
         Self(PhantomData)
     }
 
-    fn evaluate_columns(
-        &self,
-        request: &MapRequest<'_>,
-        section: usize,
-    ) -> Result<MapResult, Stop> {
+    fn evaluate_columns(&self, request: &MapRequest<'_>, section: usize) -> Result<MapResult, Stop> {
         let coordinates = M::INFO.coordinates.len();
         let (count, chosen): (usize, &[usize]) = match request.sensitivity {
             Sensitivity::None => (0, &[]),
@@ -57,14 +49,10 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         };
         let mut result: Option<MapResult> = None;
         let mut first = 0;
+        let bare = !request.measures && chosen.is_empty();
         loop {
-            let width = (count - first).min(WIDEST);
-            let columns = Columns {
-                first,
-                width,
-                coordinates,
-                chosen,
-            };
+            let width = (count - first).min(if bare { WIDEST_BARE } else { WIDEST_WHOLE });
+            let columns = Columns { first, width, coordinates, chosen, bare };
             let part = dispatch::<M, N, P, Q>(request, section, columns)?;
             result = Some(match result {
                 None => part,
@@ -75,17 +63,11 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
                 break;
             }
         }
-        result.ok_or(Stop {
-            reason: StopReason::NotFinite,
-            time: 0.0,
-            state: Vec::new(),
-        })
+        result.ok_or(Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() })
     }
 }
 
-impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMap
-    for Hybrid<M, N, P, Q>
-{
+impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMap for Hybrid<M, N, P, Q> {
     fn info(&self) -> &'static ModelInfo {
         M::INFO
     }
@@ -106,6 +88,7 @@ struct Columns<'a> {
     width: usize,
     coordinates: usize,
     chosen: &'a [usize],
+    bare: bool,
 }
 
 fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
@@ -113,22 +96,15 @@ fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     section: usize,
     columns: Columns<'_>,
 ) -> Result<MapResult, Stop> {
-    let bare = !request.measures && columns.chosen.is_empty();
     macro_rules! widths {
-        ($($c:literal),+) => {
+        ($kind:ty, $w:expr; $($c:literal),+) => {
             match columns.width {
-                $(width if width <= $c => {
-                    if bare {
-                        pass::<M, Bare, N, P, Q, 0, $c>(request, section, columns)
-                    } else {
-                        pass::<M, Whole, N, P, Q, Q, $c>(request, section, columns)
-                    }
-                })+
+                $(width if width <= $c => pass::<M, $kind, N, P, Q, { $w }, $c>(request, section, columns),)+
                 _ => Err(Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() }),
             }
         };
     }
-    widths!(0, 1, 2, 4, 8)
+    if columns.bare { widths!(Bare, 0; 0, 1, 2, 4) } else { widths!(Whole, Q; 0, 2, 4, 8) }
 }
 
 fn pass<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
@@ -142,10 +118,7 @@ where
 {
     let mut p = [0.0; P];
     p.copy_from_slice(request.parameters);
-    let mut at = Coordinates {
-        z: [0.0; N],
-        dz: [[0.0; N]; C],
-    };
+    let mut at = Coordinates { z: [0.0; N], dz: [[0.0; N]; C] };
     at.z[..request.coordinates.len()].copy_from_slice(request.coordinates);
     let mut dp = [[0.0; P]; C];
     for c in 0..columns.width.min(C) {
@@ -160,11 +133,7 @@ where
     let mut run = Run::<M, R, N, P, Q, W, C>::new(request.accuracy, &p, dp, functionals);
     match run.map(request, section, at) {
         Ok((end, state)) => Ok(gather(&run, request, columns, &end, &state)),
-        Err(reason) => Err(Stop {
-            reason,
-            time: run.time(),
-            state: run.step.start.x.to_vec(),
-        }),
+        Err(reason) => Err(Stop { reason, time: run.time(), state: run.step.start.x.to_vec() }),
     }
 }
 
@@ -237,22 +206,14 @@ fn measures<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, c
 fn append(mut all: MapResult, part: MapResult) -> MapResult {
     let side_by_side = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
         DMatrix::from_fn(a.nrows(), a.ncols() + b.ncols(), |i, j| {
-            if j < a.ncols() {
-                a[(i, j)]
-            } else {
-                b[(i, j - a.ncols())]
-            }
+            if j < a.ncols() { a[(i, j)] } else { b[(i, j - a.ncols())] }
         })
     };
     all.jacobian = side_by_side(&all.jacobian, &part.jacobian);
     all.measures_jacobian = side_by_side(&all.measures_jacobian, &part.measures_jacobian);
     let split = all.duration_gradient.len();
     all.duration_gradient = DVector::from_fn(split + part.duration_gradient.len(), |c, _| {
-        if c < split {
-            all.duration_gradient[c]
-        } else {
-            part.duration_gradient[c - split]
-        }
+        if c < split { all.duration_gradient[c] } else { part.duration_gradient[c - split] }
     });
     all.statistics.steps += part.statistics.steps;
     all.statistics.rejected += part.statistics.rejected;

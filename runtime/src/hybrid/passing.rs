@@ -3,8 +3,7 @@
 use super::functionals::{Variation, along, observe};
 use super::rates::Rates;
 use super::run::Run;
-use super::segment::Found;
-use crate::event::{Side, Surface, gradient};
+use crate::event::{Found, Side, Surface, gradient};
 use crate::model::Model;
 use crate::return_map::{Event, StopReason, Warning};
 use crate::sensitivity::{Clock, Crossing};
@@ -24,55 +23,32 @@ pub(crate) struct Place<const N: usize, const C: usize> {
     pub(crate) dt: [f64; C],
 }
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
-    Run<'_, M, R, N, P, Q, W, C>
+impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
 where
     M: Model<N, P, Q>,
     R: Rates<M, N, P, Q, W, C>,
 {
     /// Passes the first of `found`, at the end of the current step. The transition that was made, if any.
-    pub(crate) fn pass(
-        &mut self,
-        found: &[Found],
-        last: bool,
-    ) -> Result<Option<usize>, StopReason> {
-        let surfaces: Vec<Surface> = found
-            .iter()
-            .filter_map(|f| self.watched.get(f.watched))
-            .map(|w| w.surface)
-            .collect();
+    pub(crate) fn pass(&mut self, found: &[Found], last: bool) -> Result<Option<usize>, StopReason> {
+        let surfaces: Vec<Surface> =
+            found.iter().filter_map(|f| self.watched.get(f.watched)).map(|w| w.surface).collect();
         let length = self.step.tau + self.step.h;
         self.count_hasty(length)?;
         match surfaces.first() {
             Some(&Surface::Transition(i)) => {
-                let fastest = found
-                    .first()
-                    .and_then(|f| self.watched.get(f.watched))
-                    .map_or(0.0, |w| w.fastest);
+                let fastest = found.first().and_then(|f| self.watched.get(f.watched)).map_or(0.0, |w| w.fastest);
                 for other in &surfaces[1..] {
                     if let Surface::Transition(other) = *other {
                         let time = self.segment.start + length;
-                        self.warnings.push(Warning::Tie {
-                            taken: i,
-                            other,
-                            time,
-                        });
+                        self.warnings.push(Warning::Tie { taken: i, other, time });
                     }
                 }
                 self.pass_transition(i, fastest, last)?;
                 Ok(Some(i))
             }
             _ => {
-                let switches: Vec<usize> = surfaces
-                    .iter()
-                    .filter_map(|s| {
-                        if let Surface::Switch(i) = *s {
-                            Some(i)
-                        } else {
-                            None
-                        }
-                    })
-                    .collect();
+                let switches: Vec<usize> =
+                    surfaces.iter().filter_map(|s| if let Surface::Switch(i) = *s { Some(i) } else { None }).collect();
                 self.pass_switches(&switches)?;
                 Ok(None)
             }
@@ -85,29 +61,16 @@ where
             return Err(StopReason::Zeno);
         }
         let since_event = self.step.h;
-        self.hasty = if since_event <= HASTY * time {
-            self.hasty + 1
-        } else {
-            0
-        };
-        if self.hasty > MOST_HASTY {
-            Err(StopReason::Zeno)
-        } else {
-            Ok(())
-        }
+        self.hasty = if since_event <= HASTY * time { self.hasty + 1 } else { 0 };
+        if self.hasty > MOST_HASTY { Err(StopReason::Zeno) } else { Ok(()) }
     }
 
     /// Moves to the end of the step and says how that place depends on the columns.
     fn place(&mut self, crossing: &Crossing<'_, N, P>) -> Place<N, C> {
         self.move_on();
-        let mut place = Place {
-            dx: self.step.start.dx,
-            dtau: [0.0; C],
-            dt: self.segment.dstart,
-        };
+        let mut place = Place { dx: self.step.start.dx, dtau: [0.0; C], dt: self.segment.dstart };
         for c in 0..C {
-            let dtau =
-                crossing.time_derivative(&place.dx[c], &self.segment.dp[c], self.segment.dstart[c]);
+            let dtau = crossing.time_derivative(&place.dx[c], &self.segment.dp[c], self.segment.dstart[c]);
             place.dtau[c] = dtau;
             place.dt[c] += dtau;
             for i in 0..N {
@@ -119,26 +82,13 @@ where
 
     fn pass_transition(&mut self, i: usize, fastest: f64, last: bool) -> Result<(), StopReason> {
         let tau = self.step.tau + self.step.h;
-        let (x, before, integrands) = (
-            self.step.end.x,
-            self.step.end_rates.x,
-            self.step.end_rates.q,
-        );
+        let (x, before, integrands) = (self.step.end.x, self.step.end_rates.x, self.step.end_rates.q);
         let guard = gradient::<M, N, P, Q>(Surface::Transition(i), &x, &self.segment.env(tau));
         let reset = M::reset_jacobian(i, &x, &self.segment.env(tau));
-        let crossing = Crossing {
-            guard: &guard,
-            reset: Some(&reset),
-            before,
-            clock: Clock::Restarts,
-        };
+        let crossing = Crossing { guard: &guard, reset: Some(&reset), before, clock: Clock::Restarts };
         let (time, transversality) = (self.segment.start + tau, crossing.transversality());
         if transversality.abs() <= GRAZING * fastest {
-            self.warnings.push(Warning::Grazing {
-                transition: i,
-                time,
-                transversality,
-            });
+            self.warnings.push(Warning::Grazing { transition: i, time, transversality });
         }
         let dstart = self.segment.dstart;
         let dx = self.step.end.dx;
@@ -148,8 +98,7 @@ where
             self.record_end(&place);
         }
         for c in 0..C {
-            self.step.start.dx[c] =
-                crossing.pass(&dx[c], &self.segment.dp[c], dstart[c], place.dtau[c]);
+            self.step.start.dx[c] = crossing.pass(&dx[c], &self.segment.dp[c], dstart[c], place.dtau[c]);
             for k in 0..W {
                 self.step.start.dq[c][k] += integrands[k] * place.dtau[c];
             }
@@ -161,11 +110,7 @@ where
         self.segment.memory = memory;
         self.segment.start = time;
         self.segment.dstart = place.dt;
-        self.events.push(Event {
-            transition: i,
-            time,
-            transversality,
-        });
+        self.events.push(Event { transition: i, time, transversality });
         self.segment.mode = M::INFO.transitions.get(i).map_or(usize::MAX, |t| t.to);
         self.check_finite()
     }
@@ -179,12 +124,7 @@ where
         let (before, integrands) = (self.step.end_rates.x, self.step.end_rates.q);
         let guard = gradient::<M, N, P, Q>(Surface::Switch(first), &x, &self.segment.env(tau));
         let dx = self.step.end.dx;
-        let place = self.place(&Crossing {
-            guard: &guard,
-            reset: None,
-            before,
-            clock: Clock::Restarts,
-        });
+        let place = self.place(&Crossing { guard: &guard, reset: None, before, clock: Clock::Restarts });
         self.observe_boundary(&place);
         for watched in &self.watched {
             if let Surface::Switch(i) = watched.surface
@@ -196,19 +136,9 @@ where
         }
         self.enter(Some(switches))?;
         let after = self.step.stages[0];
-        let crossing = Crossing {
-            guard: &guard,
-            reset: None,
-            before,
-            clock: Clock::RunsOn(after.x),
-        };
+        let crossing = Crossing { guard: &guard, reset: None, before, clock: Clock::RunsOn(after.x) };
         for c in 0..C {
-            self.step.start.dx[c] = crossing.pass(
-                &dx[c],
-                &self.segment.dp[c],
-                self.segment.dstart[c],
-                place.dtau[c],
-            );
+            self.step.start.dx[c] = crossing.pass(&dx[c], &self.segment.dp[c], self.segment.dstart[c], place.dtau[c]);
             for k in 0..W {
                 self.step.start.dq[c][k] += (integrands[k] - after.q[k]) * place.dtau[c];
             }
@@ -224,15 +154,8 @@ where
     /// Whether state and variations are finite where the run is.
     pub(crate) fn check_finite(&self) -> Result<(), StopReason> {
         let y = &self.step.start;
-        let finite =
-            y.x.iter()
-                .chain(y.dx.iter().flatten())
-                .all(|v| v.is_finite());
-        if finite {
-            Ok(())
-        } else {
-            Err(StopReason::NotFinite)
-        }
+        let finite = y.x.iter().chain(y.dx.iter().flatten()).all(|v| v.is_finite());
+        if finite { Ok(()) } else { Err(StopReason::NotFinite) }
     }
 
     /// The `End` functionals, where the run is, just before a reset.
@@ -240,15 +163,7 @@ where
         let (segment, x, tau) = (&self.segment, &self.step.start.x, self.step.tau);
         self.functionals.record_end(M::INFO, |o| {
             observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(tau), |g, c| {
-                along(
-                    g,
-                    Variation {
-                        dx: &place.dx[c],
-                        dp: &segment.dp[c],
-                        dtau: place.dtau[c],
-                        dt: place.dt[c],
-                    },
-                )
+                along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: place.dtau[c], dt: place.dt[c] })
             })
         });
     }

@@ -3,6 +3,7 @@
 //! With x' = f(x, tau, t, p), t = start + tau and a column (v, w, s) of variations of state, parameters and start:
 //! v' = f_x v + f_p w + f_t s, and likewise for the integrands.
 
+use crate::event::Frame;
 use crate::model::{Env, Model};
 use crate::ode::Bundle;
 use crate::sensitivity::Dual;
@@ -27,16 +28,15 @@ pub(crate) struct Segment<'a, const P: usize, const C: usize> {
 }
 
 impl<const P: usize, const C: usize> Segment<'_, P, C> {
+    /// What does not depend on the columns.
+    pub(crate) fn frame(&self) -> Frame<'_, P> {
+        Frame { mode: self.mode, start: self.start, p: self.p, memory: &self.memory, branch: &self.branch }
+    }
+
     /// The environment at `tau`.
     #[inline(always)]
     pub(crate) fn env(&self, tau: f64) -> Env<'_, f64, P> {
-        Env {
-            tau,
-            t: self.start + tau,
-            p: self.p,
-            memory: &self.memory,
-            branch: &self.branch,
-        }
+        Env { tau, t: self.start + tau, p: self.p, memory: &self.memory, branch: &self.branch }
     }
 }
 
@@ -62,53 +62,36 @@ pub(crate) struct Bare;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Whole;
 
-impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>
-    Rates<M, N, P, Q, 0, C> for Bare
+impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize> Rates<M, N, P, Q, 0, C>
+    for Bare
 {
-    #[inline(always)]
+    #[inline]
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, 0, C>) -> Bundle<N, 0, C> {
         let (x, mut dx) = M::variational(segment.mode, &y.x, &y.dx, &segment.env(tau));
         if M::INFO.uses_time && C > 0 {
             add_time_columns::<M, N, P, Q, C>(segment, tau, &y.x, &mut dx, &mut [[0.0; Q]; C]);
         }
-        Bundle {
-            x,
-            q: [],
-            dx,
-            dq: [[]; C],
-        }
+        Bundle { x, q: [], dx, dq: [[]; C] }
     }
 }
 
-impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>
-    Rates<M, N, P, Q, Q, C> for Whole
+impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize> Rates<M, N, P, Q, Q, C>
+    for Whole
 {
-    #[inline(always)]
+    #[inline]
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, Q, C>) -> Bundle<N, Q, C> {
-        let mut r =
-            M::integrated_variational(segment.mode, &y.x, &y.dx, &segment.dp, &segment.env(tau));
+        let mut r = M::integrated_variational(segment.mode, &y.x, &y.dx, &segment.dp, &segment.env(tau));
         if M::INFO.uses_time && C > 0 {
             add_time_columns::<M, N, P, Q, C>(segment, tau, &y.x, &mut r.dflow, &mut r.dintegrands);
         }
-        Bundle {
-            x: r.flow,
-            q: r.integrands,
-            dx: r.dflow,
-            dq: r.dintegrands,
-        }
+        Bundle { x: r.flow, q: r.integrands, dx: r.dflow, dq: r.dintegrands }
     }
 }
 
 /// Adds the terms f_t s and i_t s of models whose equations use t.
 #[cold]
 #[inline(never)]
-fn add_time_columns<
-    M: Model<N, P, Q>,
-    const N: usize,
-    const P: usize,
-    const Q: usize,
-    const C: usize,
->(
+fn add_time_columns<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>(
     segment: &Segment<'_, P, C>,
     tau: f64,
     x: &[f64; N],
@@ -118,17 +101,11 @@ fn add_time_columns<
     if segment.dstart.iter().all(|s| *s == 0.0) {
         return;
     }
-    let constant = |value: f64| Dual {
-        value,
-        derivative: 0.0,
-    };
+    let constant = |value: f64| Dual { value, derivative: 0.0 };
     let memory: Vec<Dual> = segment.memory.iter().map(|m| constant(*m)).collect();
     let env = Env {
         tau: constant(tau),
-        t: Dual {
-            value: segment.start + tau,
-            derivative: 1.0,
-        },
+        t: Dual { value: segment.start + tau, derivative: 1.0 },
         p: &segment.p.map(constant),
         memory: &memory,
         branch: &segment.branch,

@@ -4,29 +4,16 @@ use crate::model::ModelInfo;
 use crate::return_map::{MapRequest, RequestError, Sensitivity};
 
 /// Whether the request fits the model; the section's transition.
-pub(crate) fn check(
-    info: &'static ModelInfo,
-    request: &MapRequest<'_>,
-) -> Result<usize, RequestError> {
-    let section = info
-        .section_after
-        .ok_or(RequestError::NoSection(info.name))?;
-    values(
-        "section coordinates",
-        request.coordinates,
-        info.coordinates.len(),
-    )?;
+pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Result<usize, RequestError> {
+    let section = info.section_after.ok_or(RequestError::NoSection(info.name))?;
+    values("section coordinates", request.coordinates, info.coordinates.len())?;
     values("parameters", request.parameters, info.parameters.len())?;
     values("memory", request.memory, info.memory.len())?;
     if let Sensitivity::CoordinatesAndParameters(chosen) = request.sensitivity
         && let Some(&worst) = chosen.iter().find(|i| **i >= info.parameters.len())
     {
         let what = "a parameter index of the sensitivity (counted from 0) is out of range: number of parameters";
-        return Err(RequestError::Length {
-            what,
-            expected: info.parameters.len(),
-            got: worst,
-        });
+        return Err(RequestError::Length { what, expected: info.parameters.len(), got: worst });
     }
     accuracy(request)?;
     Ok(section)
@@ -34,11 +21,7 @@ pub(crate) fn check(
 
 fn values(what: &'static str, given: &[f64], expected: usize) -> Result<(), RequestError> {
     if given.len() != expected {
-        return Err(RequestError::Length {
-            what,
-            expected,
-            got: given.len(),
-        });
+        return Err(RequestError::Length { what, expected, got: given.len() });
     }
     match given.iter().position(|v| !v.is_finite()) {
         Some(index) => Err(RequestError::NotFinite { what, index }),
@@ -50,19 +33,13 @@ fn accuracy(request: &MapRequest<'_>) -> Result<(), RequestError> {
     let a = &request.accuracy;
     // Written so that NaN fails.
     if !(a.relative >= 0.0 && a.relative < 1.0) {
-        return Err(RequestError::Accuracy(
-            "`relative` tolerance must be at least 0 and below 1, e.g. 1e-12",
-        ));
+        return Err(RequestError::Accuracy("`relative` tolerance must be at least 0 and below 1, e.g. 1e-12"));
     }
     if !(a.absolute > 0.0 && a.absolute.is_finite()) {
-        return Err(RequestError::Accuracy(
-            "`absolute` tolerance must be positive, e.g. 1e-13",
-        ));
+        return Err(RequestError::Accuracy("`absolute` tolerance must be positive, e.g. 1e-13"));
     }
     if !(a.time_limit > 0.0 && a.time_limit.is_finite()) {
-        return Err(RequestError::Accuracy(
-            "the time limit must be positive and finite, e.g. 100 s",
-        ));
+        return Err(RequestError::Accuracy("the time limit must be positive and finite, e.g. 100 s"));
     }
     if request.period == 0 {
         return Err(RequestError::Accuracy("`period` must be at least 1"));

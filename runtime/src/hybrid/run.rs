@@ -5,45 +5,17 @@
 
 use super::functionals::Functionals;
 use super::rates::{Rates, Segment};
-use crate::event::{Reading, Side, Surface, read};
-use crate::model::{Direction, Model};
-use crate::ode::{Bundle, Controller, Step, Tolerance, attempt, error};
+use crate::event::{Watched, read};
+use crate::model::Model;
+use crate::ode::{Bundle, Controller, Stages, Step, Tolerance, attempt, error};
 use crate::return_map::{Accuracy, Event, Statistics, StopReason, Warning};
 use core::marker::PhantomData;
 
 /// Steps in a row that may fail before the run gives up.
 const MOST_REJECTIONS: usize = 80;
 
-/// A surface that is watched in the current segment.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Watched {
-    /// Which.
-    pub(crate) surface: Surface,
-    /// The passages that count.
-    pub(crate) direction: Direction,
-    /// Where the run is.
-    pub(crate) side: Side,
-    /// Reading at the start of the current step.
-    pub(crate) start: Reading,
-    /// Reading at its end.
-    pub(crate) end: Reading,
-    /// Largest magnitude of the value in the segment.
-    pub(crate) largest: f64,
-    /// Largest magnitude of the rate in the segment.
-    pub(crate) fastest: f64,
-}
-
 /// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
-pub(crate) struct Run<
-    'a,
-    M,
-    R,
-    const N: usize,
-    const P: usize,
-    const Q: usize,
-    const W: usize,
-    const C: usize,
-> {
+pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> {
     /// How accurately and how far.
     pub(crate) accuracy: Accuracy,
     /// What is constant in the segment.
@@ -78,33 +50,13 @@ where
     R: Rates<M, N, P, Q, W, C>,
 {
     /// A run that has not started.
-    pub(crate) fn new(
-        accuracy: Accuracy,
-        p: &'a [f64; P],
-        dp: [[f64; P]; C],
-        functionals: Functionals<C>,
-    ) -> Self {
+    pub(crate) fn new(accuracy: Accuracy, p: &'a [f64; P], dp: [[f64; P]; C], functionals: Functionals<C>) -> Self {
         let zero = Bundle::ZERO;
-        let step = Step {
-            tau: 0.0,
-            h: 0.0,
-            start: zero,
-            stages: [zero; 12],
-            end: zero,
-            end_rates: zero,
-        };
+        let step = Step { tau: 0.0, h: 0.0, start: zero, stages: [zero; 12], end: zero, end_rates: zero };
         let (memory, branch) = (Vec::new(), vec![false; M::INFO.switches.len()]);
         Self {
             accuracy,
-            segment: Segment {
-                mode: 0,
-                start: 0.0,
-                p,
-                memory,
-                branch,
-                dp,
-                dstart: [0.0; C],
-            },
+            segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C] },
             step,
             controller: Controller::default(),
             h: 0.0,
@@ -121,21 +73,12 @@ where
 
     /// Tolerance of the local error.
     pub(crate) fn tolerance(&self) -> Tolerance {
-        Tolerance {
-            relative: self.accuracy.relative,
-            absolute: self.accuracy.absolute,
-        }
+        Tolerance { relative: self.accuracy.relative, absolute: self.accuracy.absolute }
     }
 
     /// Time since the start of the run.
     pub(crate) fn time(&self) -> f64 {
         self.segment.start + self.step.tau
-    }
-
-    /// The flow without variations.
-    #[inline]
-    pub(crate) fn flow(segment: &Segment<'_, P, C>, tau: f64, x: &[f64; N]) -> [f64; N] {
-        M::flow(segment.mode, x, &segment.env(tau))
     }
 
     /// Takes one step that satisfies the error control, and reads all surfaces at its end.
@@ -151,18 +94,11 @@ where
                 return Err(StopReason::StepLimit);
             }
             let h = self.h.min(rest);
-            // Written so that NaN stops, too.
-            if !(h > 2.0 * f64::EPSILON * self.step.tau) {
-                return Err(failure);
+            if h <= 2.0 * f64::EPSILON * self.step.tau || h.is_nan() || h == 0.0 {
+                break;
             }
             self.try_step(h);
-            let mut size = error(
-                h,
-                &self.step.start,
-                &self.step.end,
-                &self.step.stages,
-                tolerance,
-            );
+            let mut size = error(h, &self.step.start, &self.step.end, &self.step.stages, tolerance);
             if size <= 1.0 && !self.finish_step() {
                 size = f64::NAN;
             }
@@ -172,29 +108,40 @@ where
                 self.statistics.steps += 1;
                 return Ok(());
             }
-            failure = if size.is_finite() {
-                StopReason::StepTooSmall
-            } else {
-                StopReason::NotFinite
-            };
+            failure = if size.is_finite() { StopReason::StepTooSmall } else { StopReason::NotFinite };
             self.statistics.rejected += 1;
         }
-        Err(failure)
+        Err(if self.domain_ends() { StopReason::NotFinite } else { failure })
     }
 
-    #[inline]
+    /// Whether the flow is not defined a short way ahead along its tangent. At the edge of a domain (a square root near
+    /// zero) the error control alone asks for ever smaller steps that all stay inside.
+    fn domain_ends(&self) -> bool {
+        let ahead = 1e-6 * self.time();
+        let mut x = self.step.start.x;
+        for i in 0..N {
+            x[i] += ahead * self.step.stages[0].x[i];
+        }
+        let flow = self.segment.frame().flow::<M, N, Q>(self.step.tau + ahead, &x);
+        !flow.iter().all(|v| v.is_finite())
+    }
+
     fn try_step(&mut self, h: f64) {
-        let segment = &self.segment;
-        let rates = |tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y);
         self.step.h = h;
-        self.step.end = attempt(
-            &rates,
-            self.step.tau,
-            h,
-            &self.step.start,
-            &mut self.step.stages,
-        );
+        self.step.end = Self::attempt(&self.segment, self.step.tau, h, &self.step.start, &mut self.step.stages);
         self.statistics.evaluations += 11;
+    }
+
+    /// One step of everything; the one place where the method is compiled for this model and number of columns.
+    #[inline(never)]
+    pub(crate) fn attempt(
+        segment: &Segment<'_, P, C>,
+        tau: f64,
+        h: f64,
+        start: &Bundle<N, W, C>,
+        stages: &mut Stages<Bundle<N, W, C>>,
+    ) -> Bundle<N, W, C> {
+        attempt(&|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y), tau, h, start, stages)
     }
 
     /// Flow and surfaces at the end of the step; false when any is not finite.

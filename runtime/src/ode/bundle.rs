@@ -26,21 +26,12 @@ pub trait OdeState: Copy {
 
     /// Calls `visit(block, start, end)` for each group of components that shares one error norm. The groups of `self`
     /// and `others` are passed side by side.
-    fn blocks<const S: usize>(
-        &self,
-        others: [&Self; S],
-        visit: &mut impl FnMut(&[f64], [&[f64]; S]),
-    );
+    fn blocks<const S: usize>(&self, others: [&Self; S], visit: &mut impl FnMut(&[f64], [&[f64]; S]));
 }
 
 impl<const N: usize, const Q: usize, const C: usize> Bundle<N, Q, C> {
     /// All zeros.
-    pub const ZERO: Self = Self {
-        x: [0.0; N],
-        q: [0.0; Q],
-        dx: [[0.0; N]; C],
-        dq: [[0.0; Q]; C],
-    };
+    pub const ZERO: Self = Self { x: [0.0; N], q: [0.0; Q], dx: [[0.0; N]; C], dq: [[0.0; Q]; C] };
 }
 
 #[inline(always)]
@@ -77,11 +68,7 @@ impl<const N: usize, const Q: usize, const C: usize> OdeState for Bundle<N, Q, C
     }
 
     #[inline(always)]
-    fn blocks<const S: usize>(
-        &self,
-        others: [&Self; S],
-        visit: &mut impl FnMut(&[f64], [&[f64]; S]),
-    ) {
+    fn blocks<const S: usize>(&self, others: [&Self; S], visit: &mut impl FnMut(&[f64], [&[f64]; S])) {
         visit(&self.x, others.map(|o| o.x.as_slice()));
         visit(&self.q, others.map(|o| o.q.as_slice()));
         for c in 0..C {

@@ -22,10 +22,7 @@ pub struct Controller {
 
 impl Default for Controller {
     fn default() -> Self {
-        Self {
-            previous: 1e-4,
-            rejected: false,
-        }
+        Self { previous: 1e-4, rejected: false }
     }
 }
 
@@ -68,11 +65,7 @@ pub fn first_step<const N: usize>(
         (sum / (N.max(1) as f64)).sqrt()
     };
     let (size, speed) = (scaled(&|i| x[i]), scaled(&|i| rate[i]));
-    let trial = if size > 1e-5 && speed > 1e-5 {
-        0.01 * size / speed
-    } else {
-        1e-6
-    };
+    let trial = if size > 1e-5 && speed > 1e-5 { 0.01 * size / speed } else { 1e-6 };
     let trial = trial.min(longest);
     let mut ahead = *x;
     for i in 0..N {
@@ -81,15 +74,7 @@ pub fn first_step<const N: usize>(
     let later = flow(tau + trial, &ahead);
     let bend = scaled(&|i| later[i] - rate[i]) / trial;
     let largest = speed.max(bend);
-    let guess = if largest <= 1e-15 {
-        (trial * 1e-3).max(1e-6)
-    } else {
-        (0.01 / largest).powf(1.0 / ORDER)
-    };
-    let guess = if guess.is_finite() {
-        guess.min(100.0 * trial)
-    } else {
-        trial
-    };
+    let guess = if largest <= 1e-15 { (trial * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / ORDER) };
+    let guess = if guess.is_finite() { guess.min(100.0 * trial) } else { trial };
     guess.min(longest)
 }

@@ -19,12 +19,7 @@ impl<const N: usize> Dense<N> {
         step: &Step<Bundle<N, Q, C0>>,
         flow: &impl Fn(f64, &[f64; N]) -> [f64; N],
     ) -> Self {
-        let state = |x: [f64; N]| Bundle::<N, 0, 0> {
-            x,
-            q: [],
-            dx: [],
-            dq: [],
-        };
+        let state = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };
         let (tau, h, y) = (step.tau, step.h, state(step.start.x));
         let mut k = [state([0.0; N]); DENSE_STAGES];
         for s in 0..STAGES {
@@ -32,18 +27,9 @@ impl<const N: usize> Dense<N> {
         }
         k[12] = state(step.end_rates.x);
         let rates = |tau: f64, y: &Bundle<N, 0, 0>| state(flow(tau, &y.x));
-        k[13] = rates(
-            tau + C[13] * h,
-            &combine!(y, h, k, A[13]; 0, 6, 7, 8, 9, 10, 11, 12),
-        );
-        k[14] = rates(
-            tau + C[14] * h,
-            &combine!(y, h, k, A[14]; 0, 5, 6, 7, 10, 11, 12, 13),
-        );
-        k[15] = rates(
-            tau + C[15] * h,
-            &combine!(y, h, k, A[15]; 0, 5, 6, 7, 8, 12, 13, 14),
-        );
+        k[13] = rates(tau + C[13] * h, &combine!(y, h, k, A[13]; 0, 6, 7, 8, 9, 10, 11, 12));
+        k[14] = rates(tau + C[14] * h, &combine!(y, h, k, A[14]; 0, 5, 6, 7, 10, 11, 12, 13));
+        k[15] = rates(tau + C[15] * h, &combine!(y, h, k, A[15]; 0, 5, 6, 7, 8, 12, 13, 14));
         let mut terms = [[0.0; N]; 7];
         for i in 0..N {
             let difference = step.end.x[i] - step.start.x[i];
@@ -54,10 +40,7 @@ impl<const N: usize> Dense<N> {
         for (row, term) in D.iter().zip(&mut terms[3..]) {
             *term = combine!(Bundle::ZERO, h, k, row; 0, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15).x;
         }
-        Self {
-            start: step.start.x,
-            terms,
-        }
+        Self { start: step.start.x, terms }
     }
 
     /// The state at the fraction `theta` of the step.

@@ -13,3 +13,6 @@ pub use bundle::{Bundle, OdeState};
 pub use control::{Controller, first_step};
 pub use dense::Dense;
 pub use step::{Stages, Step, Tolerance, attempt, error};
+
+#[cfg(test)]
+mod tests;

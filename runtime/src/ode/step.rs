@@ -48,13 +48,7 @@ pub(super) use combine;
 
 /// One step of size `h` from (`tau`, `y`), given `k[0]`, the flow there. Fills the other stages, returns the end value.
 #[inline(always)]
-pub fn attempt<V: OdeState>(
-    rates: &impl Fn(f64, &V) -> V,
-    tau: f64,
-    h: f64,
-    y: &V,
-    k: &mut Stages<V>,
-) -> V {
+pub fn attempt<V: OdeState>(rates: &impl Fn(f64, &V) -> V, tau: f64, h: f64, y: &V, k: &mut Stages<V>) -> V {
     k[1] = rates(tau + C[1] * h, &combine!(y, h, k, A[1]; 0));
     k[2] = rates(tau + C[2] * h, &combine!(y, h, k, A[2]; 0, 1));
     k[3] = rates(tau + C[3] * h, &combine!(y, h, k, A[3]; 0, 2));
@@ -63,18 +57,9 @@ pub fn attempt<V: OdeState>(
     k[6] = rates(tau + C[6] * h, &combine!(y, h, k, A[6]; 0, 3, 4, 5));
     k[7] = rates(tau + C[7] * h, &combine!(y, h, k, A[7]; 0, 3, 4, 5, 6));
     k[8] = rates(tau + C[8] * h, &combine!(y, h, k, A[8]; 0, 3, 4, 5, 6, 7));
-    k[9] = rates(
-        tau + C[9] * h,
-        &combine!(y, h, k, A[9]; 0, 3, 4, 5, 6, 7, 8),
-    );
-    k[10] = rates(
-        tau + C[10] * h,
-        &combine!(y, h, k, A[10]; 0, 3, 4, 5, 6, 7, 8, 9),
-    );
-    k[11] = rates(
-        tau + C[11] * h,
-        &combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10),
-    );
+    k[9] = rates(tau + C[9] * h, &combine!(y, h, k, A[9]; 0, 3, 4, 5, 6, 7, 8));
+    k[10] = rates(tau + C[10] * h, &combine!(y, h, k, A[10]; 0, 3, 4, 5, 6, 7, 8, 9));
+    k[11] = rates(tau + C[11] * h, &combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10));
     combine!(y, h, k, A[12]; 0, 5, 6, 7, 8, 9, 10, 11)
 }
 
@@ -87,8 +72,8 @@ pub fn error<V: OdeState>(h: f64, y: &V, end: &V, k: &Stages<V>, tolerance: Tole
     let mut worst = 0.0;
     y.blocks([end, &e5, &e3], &mut |start, [end, e5, e3]| {
         let block = block_error(start, end, e5, e3, tolerance);
-        // Written so that NaN wins.
-        if !(block <= worst) {
+        // NaN wins, and stays.
+        if block > worst || block.is_nan() {
             worst = block;
         }
     });
@@ -111,9 +96,5 @@ fn block_error(start: &[f64], end: &[f64], e5: &[f64], e3: &[f64], tolerance: To
         sum5 += end[i] * 0.0;
     }
     let denominator = sum5 + 0.01 * sum3;
-    if denominator == 0.0 {
-        0.0
-    } else {
-        sum5 / (denominator * start.len() as f64).sqrt()
-    }
+    if denominator == 0.0 { 0.0 } else { sum5 / (denominator * start.len() as f64).sqrt() }
 }

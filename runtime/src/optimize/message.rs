@@ -1,11 +1,14 @@
 //! What is said to people: one message a verdict, with what to do next.
 
 use super::gait::NoGait;
-use super::problem::Problem;
+use super::problem::{Objective, Problem};
 use super::program::{Point, Program, Row};
 use super::solution::{ActiveKind, Kink, Solution, Status};
 use crate::return_map::{Stop, StopReason, Warning};
 use std::fmt;
+
+/// Distance of a multiplier from 1 at which gaits meet or branch.
+const FOLD: f64 = 1e-4;
 
 /// The message of a verdict; `detail` names what is violated, disagrees, or what Clarabel said.
 pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) -> String {
@@ -40,12 +43,19 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
 }
 
 fn optimal(problem: &Problem<'_>, solution: &Solution) -> String {
-    if solution.active.is_empty() {
-        return "local optimum, confirmed by simulation; nothing limits it".to_owned();
+    let limits = limits(problem, solution);
+    if limits.is_empty() {
+        "local optimum, confirmed by simulation; nothing limits it".to_owned()
+    } else {
+        format!("local optimum, confirmed by simulation; limited by {}", limits.join(", "))
     }
+}
+
+/// What limits an optimum: active bounds and constraints, and what the gaits themselves do there.
+fn limits(problem: &Problem<'_>, solution: &Solution) -> Vec<String> {
     let info = problem.map.info();
     let name = |index: usize| info.parameters.get(index).map_or("?", |q| q.name);
-    let names: Vec<String> = solution
+    let mut limits: Vec<String> = solution
         .active
         .iter()
         .map(|active| match active.kind {
@@ -54,7 +64,13 @@ fn optimal(problem: &Problem<'_>, solution: &Solution) -> String {
             ActiveKind::Constraint(i) => problem.constraints.get(i).map_or(String::new(), |c| format!("`{}`", c.name)),
         })
         .collect();
-    format!("local optimum, confirmed by simulation; limited by {}", names.join(", "))
+    if solution.kink.is_some() && matches!(problem.objective, Objective::SpectralRadius) {
+        limits.push("multipliers that meet here".to_owned());
+    }
+    if limits.is_empty() && solution.multipliers.iter().any(|m| (m - 1.0).norm() < FOLD) {
+        limits.push("the gait itself, which ends or branches here (a multiplier is 1)".to_owned());
+    }
+    limits
 }
 
 /// The message without a gait.

@@ -283,3 +283,7 @@ impl Triplets {
         CscMatrix::new_from_triplets(rows, columns, self.rows, self.columns, self.values)
     }
 }
+
+#[cfg(test)]
+#[path = "subproblem_tests.rs"]
+mod tests;

@@ -12,19 +12,9 @@ pub fn multipliers(jacobian: &DMatrix<f64>) -> Vec<Complex<f64>> {
         0 => Vec::new(),
         1 => vec![Complex::new(jacobian[(0, 0)], 0.0)],
         2 => two_by_two(jacobian).to_vec(),
-        _ => jacobian
-            .clone()
-            .complex_eigenvalues()
-            .iter()
-            .copied()
-            .collect(),
+        _ => jacobian.clone().complex_eigenvalues().iter().copied().collect(),
     };
-    values.sort_by(|a, b| {
-        b.norm()
-            .total_cmp(&a.norm())
-            .then(b.re.total_cmp(&a.re))
-            .then(b.im.total_cmp(&a.im))
-    });
+    values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im)));
     values
 }
 
@@ -44,16 +34,8 @@ fn two_by_two(m: &DMatrix<f64>) -> [Complex<f64>; 2] {
         return [Complex::new(centre, im), Complex::new(centre, -im)];
     }
     let root = discriminant.sqrt();
-    let large = if centre >= 0.0 {
-        centre + root
-    } else {
-        centre - root
-    };
-    let small = if large == 0.0 {
-        0.0
-    } else {
-        (a * d - b * c) / large
-    };
+    let large = if centre >= 0.0 { centre + root } else { centre - root };
+    let small = if large == 0.0 { 0.0 } else { (a * d - b * c) / large };
     [Complex::new(large, 0.0), Complex::new(small, 0.0)]
 }
 
@@ -65,10 +47,7 @@ mod tests {
     fn small_matrices_have_their_closed_forms() {
         assert!(multipliers(&DMatrix::zeros(0, 0)).is_empty());
         assert_eq!(spectral_radius(&[]), 0.0);
-        assert_eq!(
-            multipliers(&DMatrix::from_element(1, 1, -0.7)),
-            [Complex::new(-0.7, 0.0)]
-        );
+        assert_eq!(multipliers(&DMatrix::from_element(1, 1, -0.7)), [Complex::new(-0.7, 0.0)]);
         let rotation = DMatrix::from_row_slice(2, 2, &[0.6, -0.8, 0.8, 0.6]);
         let pair = multipliers(&rotation);
         approx::assert_relative_eq!(pair[0].im, 0.8, epsilon = 1e-15);
@@ -76,11 +55,7 @@ mod tests {
         // Nearly singular: the small root keeps its digits.
         let m = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 1.0, 1.0 + 1e-9]);
         let small = multipliers(&m)[1].re;
-        approx::assert_relative_eq!(
-            small,
-            (1.0 + 1e-9_f64 - 1.0) / multipliers(&m)[0].re,
-            max_relative = 1e-12
-        );
+        approx::assert_relative_eq!(small, (1.0 + 1e-9_f64 - 1.0) / multipliers(&m)[0].re, max_relative = 1e-12);
         assert!(multipliers(&DMatrix::from_element(2, 2, f64::NAN)).is_empty());
     }
 

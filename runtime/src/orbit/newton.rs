@@ -6,8 +6,7 @@
 
 use super::multipliers::{multipliers, spectral_radius};
 use crate::return_map::{
-    Accuracy, MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop,
-    StopReason,
+    Accuracy, MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
 };
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -35,15 +34,7 @@ impl<'a> GaitRequest<'a> {
     /// Period 1, default accuracy, tolerance 1e-10, 50 iterations, measures.
     pub fn new(parameters: &'a [f64], memory: &'a [f64]) -> Self {
         let accuracy = Accuracy::default();
-        Self {
-            parameters,
-            memory,
-            period: 1,
-            accuracy,
-            tolerance: 1e-10,
-            iteration_limit: 50,
-            measures: true,
-        }
+        Self { parameters, memory, period: 1, accuracy, tolerance: 1e-10, iteration_limit: 50, measures: true }
     }
 }
 
@@ -97,11 +88,7 @@ const ITERATES_A_START: usize = 4;
 ///
 /// # Errors
 /// When the request is wrong: lengths, numbers that are not finite, a model without a section.
-pub fn find_gait(
-    map: &dyn ReturnMap,
-    request: &GaitRequest<'_>,
-    guess: &[f64],
-) -> Result<GaitOutcome, RequestError> {
+pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) -> Result<GaitOutcome, RequestError> {
     let search = Search { map, request };
     let mut start = guess.to_vec();
     let mut best: Option<Point> = None;
@@ -120,10 +107,7 @@ pub fn find_gait(
                 }
             }
         }
-        if best
-            .as_ref()
-            .is_some_and(|b| b.residual <= request.tolerance)
-        {
+        if best.as_ref().is_some_and(|b| b.residual <= request.tolerance) {
             break;
         }
         if turn == 0 {
@@ -151,12 +135,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(
-        &self,
-        z: &[f64],
-        sensitivity: Sensitivity<'_>,
-        measures: bool,
-    ) -> Result<MapOutcome, RequestError> {
+    fn run(&self, z: &[f64], sensitivity: Sensitivity<'_>, measures: bool) -> Result<MapOutcome, RequestError> {
         self.map.evaluate(&MapRequest {
             coordinates: z,
             parameters: self.request.parameters,
@@ -174,11 +153,7 @@ impl Search<'_> {
             MapOutcome::Completed(map) => {
                 let z = DVector::from_column_slice(z);
                 let residual = residual(&z, &map.coordinates);
-                Ok(Point {
-                    z,
-                    map: *map,
-                    residual,
-                })
+                Ok(Point { z, map: *map, residual })
             }
         })
     }
@@ -202,11 +177,7 @@ impl Search<'_> {
     }
 
     /// The first point along the step where the residual falls sufficiently.
-    fn line_search(
-        &self,
-        point: &Point,
-        step: &DVector<f64>,
-    ) -> Result<Option<Point>, RequestError> {
+    fn line_search(&self, point: &Point, step: &DVector<f64>) -> Result<Option<Point>, RequestError> {
         let mut length = 1.0;
         for _ in 0..HALVINGS {
             let trial = &point.z + step * length;
@@ -237,12 +208,7 @@ impl Search<'_> {
         Ok(Some(z))
     }
 
-    fn finish(
-        &self,
-        best: Option<Point>,
-        stop: Option<Stop>,
-        iterations: usize,
-    ) -> Result<GaitOutcome, RequestError> {
+    fn finish(&self, best: Option<Point>, stop: Option<Stop>, iterations: usize) -> Result<GaitOutcome, RequestError> {
         let residual = best.as_ref().map_or(f64::INFINITY, |b| b.residual);
         let converged = residual <= self.request.tolerance;
         let status = match stop {
@@ -255,31 +221,19 @@ impl Search<'_> {
             None => None,
         };
         let message = message(&status, residual, self.request.tolerance);
-        Ok(GaitOutcome {
-            status,
-            message,
-            gait,
-            residual,
-            iterations,
-        })
+        Ok(GaitOutcome { status, message, gait, residual, iterations })
     }
 
     fn gait(&self, point: Point) -> Result<Gait, RequestError> {
         let mut map = point.map;
         if self.request.measures
-            && let MapOutcome::Completed(full) =
-                self.run(point.z.as_slice(), Sensitivity::Coordinates, true)?
+            && let MapOutcome::Completed(full) = self.run(point.z.as_slice(), Sensitivity::Coordinates, true)?
         {
             map = *full;
         }
         let multipliers = multipliers(&map.jacobian);
         let spectral_radius = spectral_radius(&multipliers);
-        Ok(Gait {
-            coordinates: point.z,
-            map,
-            multipliers,
-            spectral_radius,
-        })
+        Ok(Gait { coordinates: point.z, map, multipliers, spectral_radius })
     }
 }
 
@@ -287,8 +241,8 @@ fn residual(z: &DVector<f64>, image: &DVector<f64>) -> f64 {
     let mut worst = 0.0;
     for (a, b) in z.iter().zip(image) {
         let component = (b - a).abs() / a.abs().max(1.0);
-        // Written so that NaN wins.
-        if !(component <= worst) {
+        // NaN wins, and stays.
+        if component > worst || component.is_nan() {
             worst = component;
         }
     }
@@ -307,9 +261,7 @@ fn newton_step(point: &Point) -> Option<DVector<f64>> {
     }
     let svd = matrix.svd(true, true);
     let cut = 1e-12 * svd.singular_values.max();
-    svd.solve(&right, cut)
-        .ok()
-        .filter(|step| step.iter().all(|v| v.is_finite()))
+    svd.solve(&right, cut).ok().filter(|step| step.iter().all(|v| v.is_finite()))
 }
 
 fn message(status: &GaitStatus, residual: f64, tolerance: f64) -> String {

@@ -19,14 +19,8 @@ impl<S: Scalar> Dual<S> {
     fn chain(self, value: S, slope: S) -> Self {
         // A zero derivative stays zero also where the slope is infinite (a square root at 0).
         let zero = S::constant(0.0);
-        let flat = S::and(
-            self.derivative.less_equal(zero),
-            zero.less_equal(self.derivative),
-        );
-        Self {
-            value,
-            derivative: S::select(flat, zero, slope * self.derivative),
-        }
+        let flat = S::and(self.derivative.less_equal(zero), zero.less_equal(self.derivative));
+        Self { value, derivative: S::select(flat, zero, slope * self.derivative) }
     }
 }
 
@@ -37,30 +31,21 @@ fn one<S: Scalar>() -> S {
 impl<S: Scalar> Add for Dual<S> {
     type Output = Self;
     fn add(self, o: Self) -> Self {
-        Self {
-            value: self.value + o.value,
-            derivative: self.derivative + o.derivative,
-        }
+        Self { value: self.value + o.value, derivative: self.derivative + o.derivative }
     }
 }
 
 impl<S: Scalar> Sub for Dual<S> {
     type Output = Self;
     fn sub(self, o: Self) -> Self {
-        Self {
-            value: self.value - o.value,
-            derivative: self.derivative - o.derivative,
-        }
+        Self { value: self.value - o.value, derivative: self.derivative - o.derivative }
     }
 }
 
 impl<S: Scalar> Mul for Dual<S> {
     type Output = Self;
     fn mul(self, o: Self) -> Self {
-        Self {
-            value: self.value * o.value,
-            derivative: self.derivative * o.value + self.value * o.derivative,
-        }
+        Self { value: self.value * o.value, derivative: self.derivative * o.value + self.value * o.derivative }
     }
 }
 
@@ -68,20 +53,14 @@ impl<S: Scalar> Div for Dual<S> {
     type Output = Self;
     fn div(self, o: Self) -> Self {
         let value = self.value / o.value;
-        Self {
-            value,
-            derivative: (self.derivative - value * o.derivative) / o.value,
-        }
+        Self { value, derivative: (self.derivative - value * o.derivative) / o.value }
     }
 }
 
 impl<S: Scalar> Neg for Dual<S> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            derivative: -self.derivative,
-        }
+        Self { value: -self.value, derivative: -self.derivative }
     }
 }
 
@@ -89,10 +68,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     type Mask = S::Mask;
 
     fn constant(value: f64) -> Self {
-        Self {
-            value: S::constant(value),
-            derivative: S::constant(0.0),
-        }
+        Self { value: S::constant(value), derivative: S::constant(0.0) }
     }
     fn sin(self) -> Self {
         self.chain(self.value.sin(), self.value.cos())
@@ -105,30 +81,18 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(tan, one::<S>() + tan * tan)
     }
     fn asin(self) -> Self {
-        self.chain(
-            self.value.asin(),
-            one::<S>() / (one::<S>() - self.value * self.value).sqrt(),
-        )
+        self.chain(self.value.asin(), one::<S>() / (one::<S>() - self.value * self.value).sqrt())
     }
     fn acos(self) -> Self {
-        self.chain(
-            self.value.acos(),
-            -one::<S>() / (one::<S>() - self.value * self.value).sqrt(),
-        )
+        self.chain(self.value.acos(), -one::<S>() / (one::<S>() - self.value * self.value).sqrt())
     }
     fn atan(self) -> Self {
-        self.chain(
-            self.value.atan(),
-            one::<S>() / (one::<S>() + self.value * self.value),
-        )
+        self.chain(self.value.atan(), one::<S>() / (one::<S>() + self.value * self.value))
     }
     fn atan2(self, x: Self) -> Self {
         let square = self.value * self.value + x.value * x.value;
         let derivative = (self.derivative * x.value - self.value * x.derivative) / square;
-        Self {
-            value: self.value.atan2(x.value),
-            derivative,
-        }
+        Self { value: self.value.atan2(x.value), derivative }
     }
     fn sinh(self) -> Self {
         self.chain(self.value.sinh(), self.value.cosh())
@@ -141,22 +105,13 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(tanh, one::<S>() - tanh * tanh)
     }
     fn asinh(self) -> Self {
-        self.chain(
-            self.value.asinh(),
-            one::<S>() / (one::<S>() + self.value * self.value).sqrt(),
-        )
+        self.chain(self.value.asinh(), one::<S>() / (one::<S>() + self.value * self.value).sqrt())
     }
     fn acosh(self) -> Self {
-        self.chain(
-            self.value.acosh(),
-            one::<S>() / (self.value * self.value - one::<S>()).sqrt(),
-        )
+        self.chain(self.value.acosh(), one::<S>() / (self.value * self.value - one::<S>()).sqrt())
     }
     fn atanh(self) -> Self {
-        self.chain(
-            self.value.atanh(),
-            one::<S>() / (one::<S>() - self.value * self.value),
-        )
+        self.chain(self.value.atanh(), one::<S>() / (one::<S>() - self.value * self.value))
     }
     fn exp(self) -> Self {
         let exp = self.value.exp();
@@ -173,16 +128,10 @@ impl<S: Scalar> Scalar for Dual<S> {
         let value = self.value.pow(e.value);
         let by_base = self.chain(value, e.value * self.value.pow(e.value - one::<S>()));
         let by_exponent = e.chain(value, value * self.value.ln());
-        Self {
-            value,
-            derivative: by_base.derivative + by_exponent.derivative,
-        }
+        Self { value, derivative: by_base.derivative + by_exponent.derivative }
     }
     fn signum(self) -> Self {
-        Self {
-            value: self.value.signum(),
-            derivative: S::constant(0.0),
-        }
+        Self { value: self.value.signum(), derivative: S::constant(0.0) }
     }
     fn abs(self) -> Self {
         self.chain(self.value.abs(), self.value.signum())
@@ -216,32 +165,17 @@ mod tests {
 
     fn check(f: impl Fn(Dual<f64>) -> Dual<f64>, at: f64) {
         let h = 1e-5;
-        let exact = f(Dual {
-            value: at,
-            derivative: 1.0,
-        });
-        let difference =
-            (f(Dual::constant(at + h)).value - f(Dual::constant(at - h)).value) / (2.0 * h);
-        approx::assert_relative_eq!(
-            exact.derivative,
-            difference,
-            max_relative = 1e-8,
-            epsilon = 1e-9
-        );
+        let exact = f(Dual { value: at, derivative: 1.0 });
+        let difference = (f(Dual::constant(at + h)).value - f(Dual::constant(at - h)).value) / (2.0 * h);
+        approx::assert_relative_eq!(exact.derivative, difference, max_relative = 1e-8, epsilon = 1e-9);
     }
 
     #[test]
     fn every_function_agrees_with_a_central_difference() {
         let c = Dual::constant;
         check(|x| x.sin() * x.cos() + x.tan() / (c(2.0) - x), 0.3);
-        check(
-            |x| x.asin() + x.acos() * x + x.atan() - x.atan2(c(0.7) * x * x),
-            0.3,
-        );
-        check(
-            |x| x.sinh() - x.cosh() * x.tanh() + x.asinh() + x.atanh(),
-            0.4,
-        );
+        check(|x| x.asin() + x.acos() * x + x.atan() - x.atan2(c(0.7) * x * x), 0.3);
+        check(|x| x.sinh() - x.cosh() * x.tanh() + x.asinh() + x.atanh(), 0.4);
         check(|x| x.acosh() + x.exp() + x.ln() + x.sqrt(), 1.7);
         check(|x| x.pow(x) + x.pow(c(3.0)) + (-x).abs() + x.signum(), 1.3);
         check(|x| (-x).pow(c(3.0)), 1.3);

@@ -80,9 +80,7 @@ impl<const N: usize, const P: usize> Crossing<'_, N, P> {
 }
 
 /// The saltation matrix, as an array of columns: d x+ / d x- at fixed parameters.
-pub fn saltation_matrix<const N: usize, const P: usize>(
-    crossing: &Crossing<'_, N, P>,
-) -> [[f64; N]; N] {
+pub fn saltation_matrix<const N: usize, const P: usize>(crossing: &Crossing<'_, N, P>) -> [[f64; N]; N] {
     let dp = [0.0; P];
     core::array::from_fn(|j| {
         let mut dx = [0.0; N];
@@ -120,4 +118,53 @@ pub(crate) fn dot<const L: usize>(a: &[f64; L], b: &[f64; L]) -> f64 {
         sum += a[i] * b[i];
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    /// The bouncing ball (y, v) with restitution e: Xi = [[-e, 0], [-(1 + e) g/v, -e]] by rows.
+    #[test]
+    fn bouncing_ball_has_its_closed_form() {
+        let (g, e, v) = (9.81, 0.7, -2.0);
+        let guard = Gradient { value: 0.0, dx: [1.0, 0.0], dp: [], dtau: 0.0, dt: 0.0 };
+        let dx = [[1.0, 0.0], [0.0, -e]];
+        let reset = Jacobian { value: [0.0, -e * v], dx, dp: [], dtau: [0.0; 2], dt: [0.0; 2] };
+        let before = [v, -g];
+        let clock = Clock::RunsOn([-e * v, -g]);
+        let crossing = Crossing::<2, 0> { guard: &guard, reset: Some(&reset), before, clock };
+        let xi = saltation_matrix(&crossing);
+        let exact = [[-e, -(1.0 + e) * g / v], [0.0, -e]];
+        for j in 0..2 {
+            for i in 0..2 {
+                assert_abs_diff_eq!(xi[j][i], exact[j][i], epsilon = 1e-14);
+            }
+        }
+    }
+
+    /// Guard, reset and flow that depend on everything, against Xi as published, with D_t terms.
+    #[test]
+    fn time_terms_agree_with_the_published_formula() {
+        let guard = Gradient { value: 0.0, dx: [0.3, -1.1], dp: [0.4], dtau: 0.0, dt: 0.25 };
+        let dx = [[0.9, 0.2], [-0.4, 1.3]];
+        let reset = Jacobian { value: [0.0; 2], dx, dp: [[0.7, -0.6]], dtau: [0.0; 2], dt: [0.15, -0.35] };
+        let (before, after) = ([0.8, -0.5], [-0.2, 1.4]);
+        let crossing = Crossing::<2, 1> { guard: &guard, reset: Some(&reset), before, clock: Clock::RunsOn(after) };
+        let xi = saltation_matrix(&crossing);
+        let rate = 0.25 + 0.3 * 0.8 + 1.1 * 0.5;
+        assert_abs_diff_eq!(crossing.transversality(), rate, epsilon = 1e-15);
+        for j in 0..2 {
+            for i in 0..2 {
+                let jump = after[i] - dx[0][i] * before[0] - dx[1][i] * before[1] - reset.dt[i];
+                assert_abs_diff_eq!(xi[j][i], dx[j][i] + jump * guard.dx[j] / rate, epsilon = 1e-14);
+            }
+        }
+        // A parameter moves the event, and the reset.
+        let dtau = crossing.time_derivative(&[0.0; 2], &[1.0], 0.0);
+        assert_abs_diff_eq!(dtau, -0.4 / rate, epsilon = 1e-15);
+        let touched = Gradient { dx: [0.0; 2], dt: 0.0, ..guard };
+        assert_eq!(Crossing { guard: &touched, ..crossing }.time_derivative(&[1.0, 1.0], &[1.0], 0.0), 0.0);
+    }
 }

@@ -66,7 +66,7 @@ pub fn check_derivatives(map: &dyn ReturnMap, base: &MapRequest<'_>, parameters:
             all
         };
         let size = if column < d { base.coordinates[column] } else { base.parameters[parameters[column - d]] };
-        let h = 1e-3 * size.abs().max(0.1);
+        let h = 3e-4 * size.abs().max(0.1);
         let (m2, m1, p1, p2) = (at(-2.0 * h), at(-h), at(h), at(2.0 * h));
         let mut exact_column: Vec<f64> = exact.jacobian.column(column).iter().copied().collect();
         exact_column.push(exact.duration_gradient[column]);

@@ -1,0 +1,189 @@
+//! The surfaces of a mode while it runs: on which side each one is, and the first events inside a step.
+
+use super::arming::{ends_at_once, start_side};
+use super::crossing::{Passage, passage, suspicious};
+use super::frame::{Frame, StateStep};
+use super::locate::locate;
+use super::surface::{Reading, Side, Surface, read};
+use crate::model::{Direction, Model};
+use crate::ode::Dense;
+use crate::return_map::{Statistics, StopReason, Warning};
+
+/// A surface that is watched in the current segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Watched {
+    /// Which.
+    pub(crate) surface: Surface,
+    /// The passages that count.
+    pub(crate) direction: Direction,
+    /// Where the run is.
+    pub(crate) side: Side,
+    /// Reading at the start of the current step.
+    pub(crate) start: Reading,
+    /// Reading at its end.
+    pub(crate) end: Reading,
+    /// Largest magnitude of the value in the segment.
+    pub(crate) largest: f64,
+    /// Largest magnitude of the rate in the segment.
+    pub(crate) fastest: f64,
+}
+
+/// An event inside the current step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found {
+    /// Index into the watched surfaces.
+    pub(crate) watched: usize,
+    /// When, after the start of the step [s].
+    pub(crate) h: f64,
+    /// How well that is known [s].
+    uncertainty: f64,
+}
+
+impl Watched {
+    /// Whether there may be an event in the current step, of size `h`.
+    pub(crate) fn suspicious(&self, h: f64) -> bool {
+        suspicious(self.side, h, &self.start, &self.end)
+    }
+
+    /// Goes on to the next step: there was no event.
+    pub(crate) fn move_on(&mut self) {
+        self.start = self.end;
+        if self.end.value.abs() > self.end.rounding {
+            self.side = Side::of(self.end.value);
+        }
+        self.largest = self.largest.max(self.end.value.abs());
+        self.fastest = self.fastest.max(self.end.rate.abs());
+    }
+
+    /// Whether the function depends on time and parameters only, as far as the current step shows.
+    fn clock_only(&self) -> bool {
+        self.start.clock_only && self.end.clock_only
+    }
+}
+
+/// Starts to watch the guards and switches of the mode of `frame`, at (`tau`, `x`). After a switch, `previous` is what
+/// was watched before it: a guard that is zero keeps its side then.
+pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    tau: f64,
+    x: &[f64; N],
+    typical: f64,
+    previous: &[Watched],
+) -> Result<Vec<Watched>, StopReason> {
+    let guards = M::INFO.transitions.iter().enumerate().filter(|(_, t)| t.from == frame.mode);
+    let guards = guards.map(|(i, t)| (Surface::Transition(i), t.direction));
+    let switches = M::INFO.modes.get(frame.mode).map_or(&[][..], |m| m.switches);
+    let switches = switches.iter().map(|i| (Surface::Switch(*i), Direction::Either));
+    let mut watched = Vec::new();
+    for (surface, direction) in guards.chain(switches) {
+        let reading = frame.read::<M, N, Q>(surface, tau, x);
+        if !reading.value.is_finite() {
+            return Err(StopReason::NotFinite);
+        }
+        let kept = previous.iter().find(|w| w.surface == surface);
+        let start = start_side::<M, N, P, Q>(frame, surface, &reading, tau, x, typical);
+        let side = match (surface, kept) {
+            _ if reading.value.abs() > reading.rounding => start.side,
+            (Surface::Switch(i), _) if frame.branch.get(i) == Some(&true) => Side::Positive,
+            (Surface::Switch(_), _) => Side::Negative,
+            (Surface::Transition(_), Some(kept)) => kept.side,
+            (Surface::Transition(_), None) if ends_at_once(start, direction) => {
+                return Err(StopReason::Zeno);
+            }
+            (Surface::Transition(_), None) => start.side,
+        };
+        let largest = kept.map_or(0.0, |k| k.largest).max(reading.value.abs());
+        let fastest = kept.map_or(0.0, |k| k.fastest).max(reading.rate.abs());
+        watched.push(Watched { surface, direction, side, start: reading, end: reading, largest, fastest });
+    }
+    Ok(watched)
+}
+
+/// The events that come first in a step, at the same time to rounding: transitions in the order of the spec, then
+/// switches. Empty when there is none after all.
+#[inline(never)]
+pub(crate) fn first_events<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    step: &StateStep<N>,
+    watched: &[Watched],
+    warnings: &mut Vec<Warning>,
+    statistics: &mut Statistics,
+) -> Vec<Found> {
+    let dense = Dense::new(step, &|tau, x| frame.flow::<M, N, Q>(tau, x));
+    statistics.evaluations += 3;
+    let mut found = Vec::new();
+    for (i, w) in watched.iter().enumerate().filter(|(_, w)| w.suspicious(step.h)) {
+        let on_dense = |u: f64| {
+            let x = if w.clock_only() { step.start.x } else { dense.at(u) };
+            frame.read::<M, N, Q>(w.surface, step.tau + u * step.h, &x)
+        };
+        let largest = w.largest.max(w.end.value.abs());
+        let ends = (&w.start, &w.end, step.h);
+        match passage(w.side, w.direction, ends, largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
+            Some(Passage::Crossing { low, high, at, from }) => {
+                let bracket = (low * step.h, high * step.h);
+                let (h, last) = exact::<M, N, P, Q>(frame, step, w, bracket, at * step.h, from, statistics);
+                if !enabled::<M, N, P, Q>(frame, step, w.surface, h) {
+                    continue;
+                }
+                let tau = step.tau + h;
+                let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
+                found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau) });
+            }
+            Some(Passage::Touch { at }) => {
+                if let Surface::Transition(transition) = w.surface {
+                    let time = frame.start + step.tau + at * step.h;
+                    warnings.push(Warning::Grazing { transition, time, transversality: on_dense(at).rate });
+                }
+            }
+            None => {}
+        }
+    }
+    let first = found.iter().copied().min_by(|a, b| a.h.total_cmp(&b.h));
+    if let Some(first) = first {
+        // The order of `watched` (transitions as in the spec, then switches) is kept.
+        found.retain(|f| f.h - first.h <= f.uncertainty + first.uncertainty);
+    }
+    found
+}
+
+/// The time of a crossing after the start of the step, exact to rounding, and the surface's reading near it.
+fn exact<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    step: &StateStep<N>,
+    watched: &Watched,
+    bracket: (f64, f64),
+    guess: f64,
+    from: Side,
+    statistics: &mut Statistics,
+) -> (f64, Reading) {
+    let last = core::cell::Cell::new(watched.end);
+    let reading = |h: f64| {
+        let tau = step.tau + h;
+        let x = if watched.clock_only() { step.start.x } else { frame.restep::<M, N, Q>(step, h) };
+        let reading = read::<M, N, P, Q>(watched.surface, &x, &frame.flow::<M, N, Q>(tau, &x), &frame.env(tau));
+        last.set(reading);
+        reading
+    };
+    let (h, count) = locate(&reading, step.tau, bracket, guess, from);
+    if !watched.clock_only() {
+        statistics.evaluations += 12 * count;
+    }
+    (h, last.get())
+}
+
+/// Whether a transition's `when` holds after `h`.
+fn enabled<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    step: &StateStep<N>,
+    surface: Surface,
+    h: f64,
+) -> bool {
+    match surface {
+        Surface::Switch(_) => true,
+        Surface::Transition(i) => {
+            let x = frame.restep::<M, N, Q>(step, h);
+            M::when(i, &x, &frame.env(step.tau + h)) >= 0.0
+        }
+    }
+}
