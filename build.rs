@@ -4,7 +4,11 @@ fn main() -> std::process::ExitCode {
     match gaitc_compiler::build::Config::new().specs("specs").generated("generated").compile() {
         Ok(_report) => std::process::ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{error}");
+            // The only way a build script can speak to the user.
+            #[allow(clippy::print_stderr)]
+            {
+                eprintln!("{error}");
+            }
             std::process::ExitCode::FAILURE
         }
     }

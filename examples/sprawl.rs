@@ -60,7 +60,13 @@ fn panel(
         .y_label_area_size(48)
         .build_cartesian_2d(0.0..45.0, range.clone())?;
     let label = ("sans-serif", 15);
-    chart.configure_mesh().x_desc("sprawl psi [deg]").label_style(label).axis_desc_style(label).light_line_style(WHITE).draw()?;
+    chart
+        .configure_mesh()
+        .x_desc("sprawl psi [deg]")
+        .label_style(label)
+        .axis_desc_style(label)
+        .light_line_style(WHITE)
+        .draw()?;
     // Where gaits lose at least 5 % of a disturbance a step; the best speed is at its left edge.
     let enough: Vec<&Row> = rows.iter().filter(|row| row.2 <= 0.95).collect();
     if let (Some(first), Some(last)) = (enough.first(), enough.last()) {

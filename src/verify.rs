@@ -88,13 +88,7 @@ impl Table {
     }
 }
 
-fn accumulate(
-    loaded: &Loaded,
-    reference: &Reference<'_>,
-    function: Function,
-    at: &Point<'_>,
-    tables: &mut Vec<Table>,
-) {
+fn accumulate(loaded: &Loaded, reference: &Reference<'_>, function: Function, at: &Point<'_>, tables: &mut Vec<Table>) {
     let Some(evaluation) = loaded.compiled.probe(function, at) else {
         return;
     };

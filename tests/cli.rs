@@ -10,7 +10,10 @@ use std::path::Path;
 
 /// Arguments, and what stderr has to contain.
 const WRONG: &[(&[&str], &[&str])] = &[
-    (&["gait", "prescribed_lenght"], &["no compiled model is named `prescribed_lenght`", "did you mean `prescribed_length`?"]),
+    (
+        &["gait", "prescribed_lenght"],
+        &["no compiled model is named `prescribed_lenght`", "did you mean `prescribed_length`?"],
+    ),
     (&["gait", "../etc/passwd"], &["no compiled model"]),
     (&["gait", "prescribed_length", "--set", "pis=20 deg"], &["no parameter is named `pis`", "did you mean `psi`?"]),
     (&["gait", "prescribed_length", "--set", "psi"], &["psi", "="]),
@@ -22,9 +25,15 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["gait", "prescribed_length", "--tol", "nan"], &["--tol"]),
     (&["gait", "prescribed_length", "--period", "0"], &["--period"]),
     (&["gait", "prescribed_length", "--specs", "/nonexistent"], &["/nonexistent"]),
-    (&["optimize", "prescribed_length", "--problem", "fastst"], &["no problem is named `fastst`", "did you mean `fastest`?"]),
+    (
+        &["optimize", "prescribed_length", "--problem", "fastst"],
+        &["no problem is named `fastst`", "did you mean `fastest`?"],
+    ),
     (&["optimize", "prescribed_length", "--maximize", "climb_speed"], &["nothing to vary", "--vary"]),
-    (&["optimize", "prescribed_length", "--maximize", "climbspeed", "--vary", "psi=1..45 deg"], &["climbspeed", "climb_speed"]),
+    (
+        &["optimize", "prescribed_length", "--maximize", "climbspeed", "--vary", "psi=1..45 deg"],
+        &["climbspeed", "climb_speed"],
+    ),
     (&["optimize", "prescribed_length", "--maximize", "spectral_radius", "--vary", "psi=1..45 deg"], &["minimi"]),
     (&["optimize", "prescribed_length", "--vary", "psi=45..1 deg"], &["45", "1"]),
     (&["optimize", "prescribed_length", "--vary", "psi=1..45 kg"], &["kg"]),
@@ -82,7 +91,9 @@ fn changed_equations_ask_for_a_rebuild() {
 #[test]
 fn check_names_every_problem_with_its_place() {
     let folder = tempfile::tempdir().unwrap();
-    copy_spec(folder.path(), |text| text.replace("p_theta/r\"", "p_thta/r\"").replace("q_theta + delta", "q_theta + p_theta"));
+    copy_spec(folder.path(), |text| {
+        text.replace("p_theta/r\"", "p_thta/r\"").replace("q_theta + delta", "q_theta + p_theta")
+    });
     let path = folder.path().join("specs/prescribed_length.toml");
     let output = gaitc_in(folder.path(), &["check", path.to_str().unwrap(), "--json"]);
     assert_eq!(output.status.code(), Some(1));

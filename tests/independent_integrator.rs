@@ -41,7 +41,8 @@ fn by_hand(z: [f64; 2], psi: f64, omega: f64) -> ([f64; 2], [f64; 4]) {
 fn map_and_jacobian_agree_with_another_integrator() {
     let loaded = load("prescribed_length", None).unwrap();
     let (i, j) = (loaded.parameter("psi").unwrap(), loaded.parameter("omega").unwrap());
-    let cases = [(20.0_f64, 3.0, [-0.35, -0.25]), (39.5, 2.0, [-0.85, -0.3]), (8.0, 4.0, [0.2, 0.9]), (25.0, 2.5, [-0.1, 0.4])];
+    let cases =
+        [(20.0_f64, 3.0, [-0.35, -0.25]), (39.5, 2.0, [-0.85, -0.3]), (8.0, 4.0, [0.2, 0.9]), (25.0, 2.5, [-0.1, 0.4])];
     for (degrees, hertz, z) in cases {
         let (psi, omega) = (degrees.to_radians(), 2.0 * PI * hertz);
         let mut parameters = loaded.parameters();

@@ -8,7 +8,12 @@ use std::path::PathBuf;
 #[command(name = "gaitc", version, propagate_version = true, arg_required_else_help = true)]
 pub(crate) struct Cli {
     /// Folder with the specs whose parameter values and problems are used
-    #[arg(long, global = true, value_name = "DIR", help = "Folder to read specs from [default: ./specs where it exists]")]
+    #[arg(
+        long,
+        global = true,
+        value_name = "DIR",
+        help = "Folder to read specs from [default: ./specs where it exists]"
+    )]
     pub(crate) specs: Option<PathBuf>,
     /// Print JSON (SI units) instead of tables
     #[arg(long, global = true)]
@@ -61,7 +66,9 @@ pub(crate) struct SearchArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json")]
+#[command(
+    after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json"
+)]
 pub(crate) struct GaitArgs {
     #[command(flatten)]
     pub(crate) model: ModelArgs,
@@ -73,9 +80,11 @@ pub(crate) struct GaitArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "With no flags the spec's default problem is solved. With --maximize or --minimize the flags are the \
+#[command(
+    after_help = "With no flags the spec's default problem is solved. With --maximize or --minimize the flags are the \
 whole problem. Otherwise --vary and --subject-to add to the problem.\n\nExamples:\n  gaitc optimize prescribed_length\n  \
-gaitc optimize prescribed_length --minimize spectral_radius --vary 'psi=5..45 deg' --vary 'omega=15..25 rad/s'")]
+gaitc optimize prescribed_length --minimize spectral_radius --vary 'psi=5..45 deg' --vary 'omega=15..25 rad/s'"
+)]
 pub(crate) struct OptimizeArgs {
     #[command(flatten)]
     pub(crate) model: ModelArgs,

@@ -135,7 +135,8 @@ impl Report<'_> {
         let spec = &self.loaded.spec;
         let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
         let Some(gait) = self.gait() else {
-            return text + "help: try another start (--guess COORD=QUANTITY) or other parameters (--set NAME=QUANTITY)\n";
+            return text
+                + "help: try another start (--guess COORD=QUANTITY) or other parameters (--set NAME=QUANTITY)\n";
         };
         for warning in &gait.map.warnings {
             text += &format!("warning: {}\n", self.warning(warning));

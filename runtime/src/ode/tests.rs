@@ -108,15 +108,16 @@ fn one_step_errs_by_h_to_the_ninth_and_dense_output_by_h_to_the_eighth() {
         let step = one_step(0.1, h);
         let exact = |u: f64| (0.1 + u * h).tan();
         let dense = Dense::new(&step, &field);
-        let inside = [0.2, 0.35, 0.5, 0.77].map(|u| (dense.at(u)[0] - exact(u)).abs());
+        let inside = (1..40).map(|i| f64::from(i) / 40.0).map(|u| (dense.at(u)[0] - exact(u)).abs());
         assert_abs_diff_eq!(dense.at(0.0)[0], step.start.x[0], epsilon = 1e-15);
         assert_abs_diff_eq!(dense.at(1.0)[0], step.end.x[0], epsilon = 1e-15);
-        ((step.end.x[0] - exact(1.0)).abs(), inside.into_iter().fold(0.0, f64::max))
+        ((step.end.x[0] - exact(1.0)).abs(), inside.fold(0.0, f64::max))
     };
     let (coarse, fine) = (errors(0.4), errors(0.2));
     let (step, dense) = ((coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2());
     assert!((8.5..10.5).contains(&step), "order of the step {step}");
-    assert!((dense - 8.0).abs() < 0.8, "order of the dense output {dense}");
+    // The leading term is not alone at these steps; smaller ones would measure rounding.
+    assert!((7.2..9.5).contains(&dense), "order of the dense output {dense}");
 }
 
 #[test]

@@ -103,11 +103,8 @@ impl Report<'_> {
     fn varied(&self) -> Vec<Vec<String>> {
         let row = |v: &gaitc_compiler::ir::Vary| {
             let parameter = &self.spec.parameters[v.parameter];
-            let range = format!(
-                "{} .. {}",
-                in_unit(v.lower, &parameter.unit),
-                format_quantity(v.upper, &parameter.unit)
-            );
+            let range =
+                format!("{} .. {}", in_unit(v.lower, &parameter.unit), format_quantity(v.upper, &parameter.unit));
             vec![parameter.name.clone(), format_quantity(self.solution.parameters[v.parameter], &parameter.unit), range]
         };
         self.problem.vary.iter().map(row).collect()

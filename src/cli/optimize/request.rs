@@ -26,7 +26,8 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
     }
     if problem.vary.is_empty() {
         return Err(InputError(
-            "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'".to_owned(),
+            "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'"
+                .to_owned(),
         ));
     }
     Ok((spec, problem))
