@@ -214,8 +214,10 @@ pub struct TransitionInfo {
 pub struct ModeInfo {
     /// Name in the spec.
     pub name: &'static str,
-    /// Indices of the switching functions that its flow, guards and functionals depend on.
+    /// Indices of the switching functions that its flow and the transitions from it depend on.
     pub switches: &'static [usize],
+    /// Indices of those that matter when functionals are wanted too; contains `switches`.
+    pub measured_switches: &'static [usize],
 }
 
 /// What a functional takes of its expression over one map.

@@ -24,9 +24,11 @@ pub struct Facts {
     pub observables: Vec<NodeId>,
     /// For each functional of the model what it refers to.
     pub references: Vec<Reference>,
-    /// For each mode the switches that its flow, its transitions and the functionals depend on, ascending, including
-    /// those that other switching functions depend on.
+    /// For each mode the switches that its flow and its transitions depend on, ascending, including those that other
+    /// switching functions depend on.
     pub mode_switches: Vec<Vec<usize>>,
+    /// The same with those that the functionals depend on.
+    pub measured_switches: Vec<Vec<usize>>,
     /// Whether every mode gives its state derivative explicitly (no mass matrix).
     pub explicit: bool,
     /// Whether the equations depend on the time since the start of the run.
@@ -41,21 +43,19 @@ impl Facts {
     pub(super) fn of(model: &Model) -> Result<Self, String> {
         let (integrals, observables, references) = functionals(model);
         let closure = switch_closure(model)?;
-        let mode_switches = (0..model.modes.len())
-            .map(|mode| {
-                let mut roots = mode_roots(model, mode);
-                roots.extend(model.functionals.iter().map(|f| f.expr));
-                let direct = switches_of(&model.graph, &roots);
-                let all: BTreeSet<usize> =
-                    direct.iter().filter_map(|&s| closure.get(s)).flatten().chain(&direct).copied().collect();
-                all.into_iter().collect()
-            })
-            .collect();
+        let measured: Vec<NodeId> = model.functionals.iter().map(|f| f.expr).collect();
+        let switches = |mode: usize, more: &[NodeId]| -> Vec<usize> {
+            let direct = switches_of(&model.graph, &[&mode_roots(model, mode), more].concat());
+            let all: BTreeSet<usize> =
+                direct.iter().filter_map(|&s| closure.get(s)).flatten().chain(&direct).copied().collect();
+            all.into_iter().collect()
+        };
         Ok(Self {
             integrals,
             observables,
             references,
-            mode_switches,
+            mode_switches: (0..model.modes.len()).map(|mode| switches(mode, &[])).collect(),
+            measured_switches: (0..model.modes.len()).map(|mode| switches(mode, &measured)).collect(),
             explicit: model.modes.iter().all(|mode| mode.mass.is_none()),
             uses_time: model.graph.depends(&equation_roots(model), |symbol| symbol == Symbol::Time),
         })

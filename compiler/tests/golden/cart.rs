@@ -60,6 +60,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
         model::ModeInfo {
             name: "run",
             switches: &[],
+            measured_switches: &[],
         },
     ],
     transitions: &[],

@@ -68,10 +68,12 @@ static INFO: model::ModelInfo = model::ModelInfo {
         model::ModeInfo {
             name: "first",
             switches: &[0, 1, 2, 3],
+            measured_switches: &[0, 1, 2, 3],
         },
         model::ModeInfo {
             name: "second",
-            switches: &[0],
+            switches: &[],
+            measured_switches: &[0],
         },
     ],
     transitions: &[

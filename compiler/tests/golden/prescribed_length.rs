@@ -71,7 +71,8 @@ static INFO: model::ModelInfo = model::ModelInfo {
     modes: &[
         model::ModeInfo {
             name: "stance",
-            switches: &[0, 1, 2, 3],
+            switches: &[0],
+            measured_switches: &[0, 1, 2, 3],
         },
     ],
     transitions: &[

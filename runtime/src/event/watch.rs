@@ -61,10 +61,11 @@ impl Watched {
     }
 }
 
-/// Starts to watch the guards and switches of the mode of `frame`, at (`tau`, `x`). After a switch, `previous` is what
+/// Starts to watch the guards of the mode of `frame` and its `switches`, at (`tau`, `x`). After a switch, `previous` is what
 /// was watched before it: a guard that is zero keeps its side then.
 pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
+    switches: &[usize],
     tau: f64,
     x: &[f64; N],
     typical: f64,
@@ -72,7 +73,6 @@ pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
 ) -> Result<Vec<Watched>, StopReason> {
     let guards = M::INFO.transitions.iter().enumerate().filter(|(_, t)| t.from == frame.mode);
     let guards = guards.map(|(i, t)| (Surface::Transition(i), t.direction));
-    let switches = M::INFO.modes.get(frame.mode).map_or(&[][..], |m| m.switches);
     let switches = switches.iter().map(|i| (Surface::Switch(*i), Direction::Either));
     let mut watched = Vec::new();
     for (surface, direction) in guards.chain(switches) {

@@ -50,6 +50,9 @@ pub(crate) trait Rates<
     const C: usize,
 >
 {
+    /// Whether functionals are carried, so that their switches have to be located too.
+    const MEASURED: bool;
+
     /// Time derivative of everything that is carried.
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, W, C>) -> Bundle<N, W, C>;
 }
@@ -65,6 +68,8 @@ pub(crate) struct Whole;
 impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize> Rates<M, N, P, Q, 0, C>
     for Bare
 {
+    const MEASURED: bool = false;
+
     #[inline]
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, 0, C>) -> Bundle<N, 0, C> {
         let (x, mut dx) = M::variational(segment.mode, &y.x, &y.dx, &segment.env(tau));
@@ -78,6 +83,8 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C:
 impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize> Rates<M, N, P, Q, Q, C>
     for Whole
 {
+    const MEASURED: bool = true;
+
     #[inline]
     fn rates(segment: &Segment<'_, P, C>, tau: f64, y: &Bundle<N, Q, C>) -> Bundle<N, Q, C> {
         let mut r = M::integrated_variational(segment.mode, &y.x, &y.dx, &segment.dp, &segment.env(tau));

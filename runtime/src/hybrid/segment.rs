@@ -18,19 +18,20 @@ where
         let Some(mode) = M::INFO.modes.get(self.segment.mode) else {
             return Err(StopReason::NotFinite);
         };
+        let switches = if R::MEASURED { mode.measured_switches } else { mode.switches };
         let (tau, x) = (self.step.tau, self.step.start.x);
         if switched.is_none() {
             self.watched.clear();
-            if !mode.switches.is_empty() {
-                self.segment.branch = selectors::by_sign::<M, N, P, Q>(self.segment.frame(), mode.switches, tau, &x);
+            if !switches.is_empty() {
+                self.segment.branch = selectors::by_sign::<M, N, P, Q>(self.segment.frame(), switches, tau, &x);
             }
         }
         self.guess_step()?;
-        let free: Vec<usize> = mode.switches.iter().copied().filter(|i| !switched.unwrap_or(&[]).contains(i)).collect();
+        let free: Vec<usize> = switches.iter().copied().filter(|i| !switched.unwrap_or(&[]).contains(i)).collect();
         if !free.is_empty() {
             self.segment.branch = selectors::by_derivative::<M, N, P, Q>(self.segment.frame(), &free, tau, &x, self.h);
         }
-        self.watched = watch::<M, N, P, Q>(self.segment.frame(), tau, &x, self.h, &self.watched)?;
+        self.watched = watch::<M, N, P, Q>(self.segment.frame(), switches, tau, &x, self.h, &self.watched)?;
         self.step.stages[0] = R::rates(&self.segment, tau, &self.step.start);
         self.statistics.evaluations += 1;
         let finite = x.iter().chain(&self.step.stages[0].x).all(|v| v.is_finite());

@@ -1,7 +1,7 @@
 //! What is said to people: one message a verdict, with what to do next.
 
 use super::gait::NoGait;
-use super::problem::{Objective, Problem};
+use super::problem::{ConstraintKind, Objective, Problem};
 use super::program::{Point, Program, Row};
 use super::solution::{ActiveKind, Kink, Solution, Status};
 use crate::return_map::{Stop, StopReason, Warning};
@@ -61,7 +61,10 @@ fn limits(problem: &Problem<'_>, solution: &Solution) -> Vec<String> {
         .map(|active| match active.kind {
             ActiveKind::LowerBound(p) => format!("the lower bound of `{}`", name(p)),
             ActiveKind::UpperBound(p) => format!("the upper bound of `{}`", name(p)),
-            ActiveKind::Constraint(i) => problem.constraints.get(i).map_or(String::new(), |c| format!("`{}`", c.name)),
+            ActiveKind::Constraint(i) => problem.constraints.get(i).map_or(String::new(), |c| match c.kind {
+                ConstraintKind::SpectralRadius { .. } => format!("stability (`{}`)", c.name),
+                ConstraintKind::Margin { .. } => format!("`{}`", c.name),
+            }),
         })
         .collect();
     if solution.kink.is_some() && matches!(problem.objective, Objective::SpectralRadius) {

@@ -6,8 +6,8 @@ use gaitc_runtime::hybrid::Hybrid;
 use gaitc_runtime::model::{Direction, Env, Functional, ModeInfo, ModelInfo, TransitionInfo};
 use gaitc_runtime::scalar::Scalar;
 
-const ONE_MODE: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[] }];
-const SWITCHED: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[0] }];
+const ONE_MODE: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[], measured_switches: &[] }];
+const SWITCHED: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[0], measured_switches: &[0] }];
 
 const fn self_transition(name: &'static str, direction: Direction) -> TransitionInfo {
     TransitionInfo { name, from: 0, to: 0, direction }

@@ -1,7 +1,7 @@
 //! The verdict of an optimisation, as JSON and for people.
 
 use crate::cli::output;
-use gaitc_compiler::front::{format_quantity, format_si, in_unit};
+use gaitc_compiler::front::{format_number, format_quantity, format_si, in_unit};
 use gaitc_compiler::ir::{Model, Problem, Sense};
 use gaitc_runtime::optimize::{Active, ActiveKind, Solution, Status};
 use serde_json::{Map, Value, json};
@@ -60,14 +60,11 @@ impl Report<'_> {
             Sense::Maximize => "maximize",
             Sense::Minimize => "minimize",
         };
-        let mut text = format!(
-            "{} · {} · {verb} {}\n{}: {}\n",
-            self.spec.name,
-            self.problem.name,
-            self.problem.objective_text,
-            status(s.status),
-            s.message
-        );
+        let (name, problem, objective) = (&self.spec.name, &self.problem.name, &self.problem.objective_text);
+        let mut text = format!("{name} · {problem} · {verb} {objective}\n{}: {}\n", status(s.status), s.message);
+        if s.objective.is_finite() {
+            text += &format!("{objective} = {}\n", self.objective_quantity(s.objective));
+        }
         for note in &s.notes {
             text += &format!("note: {note}\n");
         }
@@ -103,8 +100,11 @@ impl Report<'_> {
     fn varied(&self) -> Vec<Vec<String>> {
         let row = |v: &gaitc_compiler::ir::Vary| {
             let parameter = &self.spec.parameters[v.parameter];
-            let range =
-                format!("{} .. {}", in_unit(v.lower, &parameter.unit), format_quantity(v.upper, &parameter.unit));
+            let range = format!(
+                "{} .. {}",
+                format_number(in_unit(v.lower, &parameter.unit)),
+                format_quantity(v.upper, &parameter.unit)
+            );
             vec![parameter.name.clone(), format_quantity(self.solution.parameters[v.parameter], &parameter.unit), range]
         };
         self.problem.vary.iter().map(row).collect()
@@ -134,11 +134,19 @@ impl Report<'_> {
                 (1.0 / in_unit(1.0, unit), format!("1 {unit}"))
             }
             ActiveKind::Constraint(i) if self.problem.constraints[i].stability_bound.is_some() => {
-                (0.01, "0.01 of spectral radius".to_owned())
+                (0.01, "0.01 of spectral radius (stability)".to_owned())
             }
             ActiveKind::Constraint(i) => (1.0, format_si(1.0, self.problem.constraints[i].dimension)),
         };
-        format!("{} per {per}", format_si(active.multiplier * step, self.problem.objective_dimension))
+        format!("{} per {per}", self.objective_quantity(active.multiplier * step))
+    }
+
+    /// A value of the objective: in the unit of the measure that it is, else in SI units.
+    fn objective_quantity(&self, value: f64) -> String {
+        match self.spec.measures.iter().find(|m| m.name == self.problem.objective_text.trim()) {
+            Some(measure) => format_quantity(value, &measure.unit),
+            None => format_si(value, self.problem.objective_dimension),
+        }
     }
 }
 

@@ -16,10 +16,11 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
     let measures = model.measures.iter().map(|m| quantity(&m.name, m.dimension));
     let memory = model.memory.iter().map(|m| &m.name);
     let switches = model.switches.iter().map(|s| &s.text);
-    let modes = model.modes.iter().zip(&facts.mode_switches).map(|(mode, switches)| {
+    let switches_of_modes = facts.mode_switches.iter().zip(&facts.measured_switches);
+    let modes = model.modes.iter().zip(switches_of_modes).map(|(mode, (switches, measured))| {
         let name = &mode.name;
-        let switches = switches.iter().map(|&i| text::count(i));
-        quote!(model::ModeInfo { name: #name, switches: &[#(#switches),*] })
+        let [switches, measured] = [switches, measured].map(|list| list.iter().map(|&i| text::count(i)));
+        quote!(model::ModeInfo { name: #name, switches: &[#(#switches),*], measured_switches: &[#(#measured),*] })
     });
     let transitions = model.transitions.iter().map(|t| {
         let (name, from, to, direction) = (&t.name, text::count(t.from), text::count(t.to), direction(t.direction));
