@@ -43,6 +43,17 @@ fn the_gait_turns_stable_where_the_determinant_is_one() {
     }
 }
 
+/// At 45 degrees the gait has p_theta = 0 to rounding, so that the sideways speed starts with either sign.
+#[test]
+fn a_gait_has_all_its_measures_also_where_a_switch_starts_at_zero() {
+    for degrees in [1.0, 20.0, 44.5, 45.0] {
+        let gait = gait(degrees);
+        for measure in ["climb_speed", "lateral_speed", "peak_force", "mean_power"] {
+            assert!(number(&gait, &format!("/measures/{measure}")).is_finite());
+        }
+    }
+}
+
 #[test]
 fn multipliers_are_a_complex_pair_until_they_meet_near_39_degrees() {
     let imaginary = |degrees| number(&gait(degrees), "/multipliers/0/1");

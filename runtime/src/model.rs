@@ -15,9 +15,9 @@ use crate::scalar::Scalar;
 /// What a model function depends on besides the state. SI units.
 #[derive(Clone, Copy, Debug)]
 pub struct Env<'a, S: Scalar, const P: usize> {
-    /// Time since the last transition [s].
+    /// Time since the last transition (s).
     pub tau: S,
-    /// Time since the start of the run [s].
+    /// Time since the start of the run (s).
     pub t: S,
     /// Parameters, in the order of [`ModelInfo::parameters`].
     pub p: &'a [S; P],
@@ -235,7 +235,7 @@ pub enum Functional {
     Maximum(usize),
     /// Smallest value of an observable.
     Minimum(usize),
-    /// Duration of the map [s].
+    /// Duration of the map (s).
     Duration,
 }
 

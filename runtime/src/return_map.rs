@@ -15,7 +15,7 @@ pub struct Accuracy {
     pub relative: f64,
     /// Absolute tolerance in SI units.
     pub absolute: f64,
-    /// Longest time of one map [s].
+    /// Longest time of one map (s).
     pub time_limit: f64,
     /// Most steps of one map.
     pub step_limit: usize,
@@ -67,7 +67,7 @@ pub struct MapResult {
     pub jacobian: DMatrix<f64>,
     /// Full state just after the section's transition at the start of the map.
     pub state: DVector<f64>,
-    /// Duration [s].
+    /// Duration (s).
     pub duration: f64,
     /// Derivative of the duration, length c.
     pub duration_gradient: DVector<f64>,
@@ -88,7 +88,7 @@ pub struct MapResult {
 pub struct Event {
     /// Index into `info().transitions`.
     pub transition: usize,
-    /// Time since the start of the map [s].
+    /// Time since the start of the map (s).
     pub time: f64,
     /// Time derivative of the guard along the flow just before it fired, in the guard's unit per second.
     pub transversality: f64,
@@ -101,7 +101,7 @@ pub enum Warning {
     Grazing {
         /// Index into `info().transitions`.
         transition: usize,
-        /// When [s].
+        /// When (s).
         time: f64,
         /// Time derivative of the guard there.
         transversality: f64,
@@ -112,7 +112,7 @@ pub enum Warning {
         taken: usize,
         /// The other.
         other: usize,
-        /// When [s].
+        /// When (s).
         time: f64,
     },
 }
@@ -133,7 +133,7 @@ pub struct Statistics {
 pub struct Stop {
     /// Why.
     pub reason: StopReason,
-    /// When [s].
+    /// When (s).
     pub time: f64,
     /// The state there.
     pub state: Vec<f64>,

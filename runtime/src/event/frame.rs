@@ -14,7 +14,7 @@ pub(crate) type StateStep<const N: usize> = Step<Bundle<N, 0, 0>>;
 pub(crate) struct Frame<'a, const P: usize> {
     /// Index of the mode.
     pub(crate) mode: usize,
-    /// Time since the start of the run at which tau was 0 [s].
+    /// Time since the start of the run at which tau was 0 (s).
     pub(crate) start: f64,
     /// Parameters.
     pub(crate) p: &'a [f64; P],

@@ -33,9 +33,9 @@ pub(crate) struct Watched {
 pub(crate) struct Found {
     /// Index into the watched surfaces.
     pub(crate) watched: usize,
-    /// When, after the start of the step [s].
+    /// When, after the start of the step (s).
     pub(crate) h: f64,
-    /// How well that is known [s].
+    /// How well that is known (s).
     uncertainty: f64,
 }
 

@@ -33,7 +33,7 @@ where
         let surfaces: Vec<Surface> =
             found.iter().filter_map(|f| self.watched.get(f.watched)).map(|w| w.surface).collect();
         let length = self.step.tau + self.step.h;
-        self.count_hasty(length)?;
+        self.count_hasty(length, matches!(surfaces.first(), Some(Surface::Transition(_))))?;
         match surfaces.first() {
             Some(&Surface::Transition(i)) => {
                 let fastest = found.first().and_then(|f| self.watched.get(f.watched)).map_or(0.0, |w| w.fastest);
@@ -55,9 +55,11 @@ where
         }
     }
 
-    fn count_hasty(&mut self, length: f64) -> Result<(), StopReason> {
+    /// A transition at once is a step of no length. A switch at once is only a selector that rounding had put on the
+    /// other side; it counts when it goes on like that.
+    fn count_hasty(&mut self, length: f64, transition: bool) -> Result<(), StopReason> {
         let time = self.segment.start + length;
-        if length <= 4.0 * f64::EPSILON * time.max(self.h) && self.step.tau == 0.0 {
+        if transition && length <= 4.0 * f64::EPSILON * time.max(self.h) && self.step.tau == 0.0 {
             return Err(StopReason::Zeno);
         }
         let since_event = self.step.h;

@@ -13,7 +13,7 @@ use crate::sensitivity::Dual;
 pub(crate) struct Segment<'a, const P: usize, const C: usize> {
     /// Index of the mode.
     pub(crate) mode: usize,
-    /// Time since the start of the run at which tau was 0 [s].
+    /// Time since the start of the run at which tau was 0 (s).
     pub(crate) start: f64,
     /// Parameters.
     pub(crate) p: &'a [f64; P],

@@ -36,7 +36,7 @@ pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, 
     pub(crate) warnings: Vec<Warning>,
     /// Work done.
     pub(crate) statistics: Statistics,
-    /// Time since the start of the run after which no step is taken [s].
+    /// Time since the start of the run after which no step is taken (s).
     pub(crate) deadline: f64,
     /// Events in a row that followed almost at once.
     pub(crate) hasty: usize,

@@ -226,10 +226,14 @@ impl Search<'_> {
 
     fn gait(&self, point: Point) -> Result<Gait, RequestError> {
         let mut map = point.map;
-        if self.request.measures
-            && let MapOutcome::Completed(full) = self.run(point.z.as_slice(), Sensitivity::Coordinates, true)?
-        {
-            map = *full;
+        if self.request.measures {
+            match self.run(point.z.as_slice(), Sensitivity::Coordinates, true)? {
+                MapOutcome::Completed(full) => map = *full,
+                // The gait is there all the same; what cannot be measured is not a number.
+                MapOutcome::Stopped(_) => {
+                    map.measures = DVector::from_element(self.map.info().measures.len(), f64::NAN);
+                }
+            }
         }
         let multipliers = multipliers(&map.jacobian);
         let spectral_radius = spectral_radius(&multipliers);

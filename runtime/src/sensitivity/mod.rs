@@ -1,6 +1,6 @@
 //! First derivatives of a run with respect to section coordinates and parameters.
 //!
-//! Inside a segment: the variational equations, advanced with the state. Across an event: [`saltation`].
+//! Inside a segment: the variational equations, advanced with the state. Across an event: [`saltation_matrix`].
 
 mod dual;
 mod saltation;

@@ -120,7 +120,7 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// `q [rad], p [m s^-1]` for the states, each dimension changed by `change`.
+/// `q (rad), p [m s^-1]` for the states, each dimension changed by `change`.
 pub(super) fn components(model: &Model, change: impl Fn(Dimension) -> Option<Dimension>) -> String {
     let list: Vec<String> = model
         .states
