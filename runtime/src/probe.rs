@@ -24,6 +24,10 @@ pub enum Function {
     Guard(usize),
     /// Reset of a transition (states).
     Reset(usize),
+    /// Memory after a transition: no derivatives.
+    Memory(usize),
+    /// Margin of a transition's `when`: no derivatives.
+    When(usize),
     /// Embedding of the section.
     Embed,
     /// Symmetry of the section.
@@ -114,7 +118,10 @@ pub fn functions(info: &ModelInfo) -> Vec<Function> {
     }
     all.extend((0..info.switches.len()).map(Function::Switch));
     for transition in 0..info.transitions.len() {
-        all.extend([Function::Guard(transition), Function::Reset(transition)]);
+        all.extend([Function::Guard(transition), Function::When(transition), Function::Reset(transition)]);
+        if !info.memory.is_empty() {
+            all.push(Function::Memory(transition));
+        }
     }
     if info.section_after.is_some() {
         all.push(Function::Embed);

@@ -29,6 +29,8 @@ impl<'a> Reference<'a> {
             Function::Switch(i) => format!("switch `{}`", self.info.switches.get(i).unwrap_or(&"?")),
             Function::Guard(i) => format!("guard of {}", transition(i)),
             Function::Reset(i) => format!("reset of {}", transition(i)),
+            Function::Memory(i) => format!("memory after {}", transition(i)),
+            Function::When(i) => format!("when of {}", transition(i)),
             Function::Embed => "section embed".to_owned(),
             Function::Symmetry => "section symmetry".to_owned(),
             Function::Observable { index, mode: m } => format!("observable {index} in {}", mode(m)),
@@ -46,6 +48,8 @@ impl<'a> Reference<'a> {
             Function::Switch(i) => self.spec.switches.get(i).map(|s| s.expr).into_iter().collect(),
             Function::Guard(i) => self.spec.transitions.get(i).map(|t| t.guard).into_iter().collect(),
             Function::Reset(i) => self.spec.transitions.get(i).map_or_else(Vec::new, |t| t.reset.clone()),
+            Function::Memory(i) => self.spec.transitions.get(i).map_or_else(Vec::new, |t| t.memory_reset.clone()),
+            Function::When(i) => self.spec.transitions.get(i).and_then(|t| t.when).into_iter().collect(),
             Function::Embed => section.map_or_else(Vec::new, |s| s.embed.clone()),
             Function::Symmetry => section.and_then(|s| s.symmetry.clone()).unwrap_or_default(),
             Function::Observable { index, .. } => self.functional(|f| observable(f) == Some(index)),
@@ -70,8 +74,10 @@ impl<'a> Reference<'a> {
     /// The function's value.
     pub(super) fn value(&self, function: Function, at: &Point<'_>) -> Vec<f64> {
         let at = environment(at);
-        let values = self.roots(function).iter().map(|&root| value(&self.spec.graph, root, &at)).collect();
+        let values: Vec<f64> = self.roots(function).iter().map(|&root| value(&self.spec.graph, root, &at)).collect();
         match function {
+            // Without `when` a transition is always enabled.
+            Function::When(_) if values.is_empty() => vec![1.0],
             Function::Residual(mode) => self.residual(mode, &at, values, &|node| value(&self.spec.graph, node, &at)),
             _ => values,
         }

@@ -27,6 +27,15 @@ pub(super) fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const 
             let mut memory = vec![0.0; at.memory.len()];
             jacobian(M::reset(i, x, &env, &mut memory), M::reset_jacobian(i, x, &env))
         }
+        Function::Memory(i) => {
+            let mut memory = vec![0.0; at.memory.len()];
+            M::reset(i, x, &env, &mut memory);
+            Evaluation { plain: memory.clone(), value: memory, derivatives: Vec::new() }
+        }
+        Function::When(i) => {
+            let margin = vec![M::when(i, x, &env)];
+            Evaluation { plain: margin.clone(), value: margin, derivatives: Vec::new() }
+        }
         Function::Embed => embed::<M, N, P, Q>(x, p),
         Function::Symmetry => {
             let mut all = jacobian(M::symmetry(x, p), M::symmetry_jacobian(x, p));
