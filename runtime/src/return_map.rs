@@ -188,6 +188,12 @@ pub enum RequestError {
     /// An accuracy setting makes no sense.
     #[error("{0}")]
     Accuracy(&'static str),
+    /// The equations depend on the time since the start of the run, so that a fixed point of one map is no periodic motion.
+    #[error(
+        "model `{0}` depends on `t`, so a fixed point of its return map is not a periodic gait; make the phase a state \
+         (phi' = omega) and a section coordinate instead of using `t`"
+    )]
+    ExplicitTime(&'static str),
     /// The model has no section, so it has no return map.
     #[error("model `{0}` has no [section], so it has no return map")]
     NoSection(&'static str),

@@ -47,31 +47,49 @@ fn turns(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
 }
 
 /// The first passage in the direction asked for. `value` and `rate` are the surface's function and its time derivative
-/// on the dense output of a step of size `h`; `largest` is the largest magnitude of the function in the segment so far.
+/// on the dense output of a step of size `h`, `dip` a place in the step known to be on the other side with its value
+/// there; `largest` is the largest magnitude of the function in the segment so far.
 pub(crate) fn passage(
     side: Side,
     direction: Direction,
-    (start, end, h): (&Reading, &Reading, f64),
+    (start, end, h, dip): (&Reading, &Reading, f64, Option<(f64, f64)>),
     largest: f64,
     value: &impl Fn(f64) -> f64,
     rate: &impl Fn(f64) -> f64,
 ) -> Option<Passage> {
+    if let Some((turn, extreme)) = dip {
+        return there_and_back(side, direction, (start, end), (turn, extreme), value);
+    }
     if changes_sign(side, h, start, end) {
         return if side.leaves(direction) { Some(sign_change(side, start, end, value)) } else { None };
     }
     let turn = root(rate, 0.0, start.rate, 1.0, end.rate);
     let extreme = value(turn);
     if side.sign() * extreme < 0.0 {
-        if side.leaves(direction) {
-            let end = Reading { value: extreme, ..*end };
-            return Some(scaled(sign_change(side, start, &end, &|u| value(u * turn)), 0.0, turn));
-        }
-        let from = side.opposite();
-        let at = root(value, turn, extreme, 1.0, end.value);
-        return Some(Passage::Crossing { low: turn, high: 1.0, at, from });
+        return there_and_back(side, direction, (start, end), (turn, extreme), value);
     }
     let touches = side.leaves(direction) && extreme.abs() <= TOUCH * largest;
     touches.then_some(Passage::Touch { at: turn })
+}
+
+/// The passage of a function that is on the other side, with the value `extreme`, at `turn`: on the way there, or, if
+/// that direction does not count, on the way back.
+fn there_and_back(
+    side: Side,
+    direction: Direction,
+    (start, end): (&Reading, &Reading),
+    (turn, extreme): (f64, f64),
+    value: &impl Fn(f64) -> f64,
+) -> Option<Passage> {
+    if side.leaves(direction) {
+        let end = Reading { value: extreme, ..*end };
+        return Some(scaled(sign_change(side, start, &end, &|u| value(u * turn)), 0.0, turn));
+    }
+    if side.sign() * end.value <= 0.0 {
+        return None;
+    }
+    let at = root(value, turn, extreme, 1.0, end.value);
+    Some(Passage::Crossing { low: turn, high: 1.0, at, from: side.opposite() })
 }
 
 fn sign_change(side: Side, start: &Reading, end: &Reading, value: &impl Fn(f64) -> f64) -> Passage {

@@ -26,6 +26,9 @@ pub(crate) struct Watched {
     pub(crate) largest: f64,
     /// Largest magnitude of the rate in the segment.
     pub(crate) fastest: f64,
+    /// The first place seen inside the current step (a fraction of it) where the function is on the other side, and its
+    /// value there.
+    pub(crate) dip: Option<(f64, f64)>,
 }
 
 /// An event inside the current step.
@@ -42,12 +45,13 @@ pub(crate) struct Found {
 impl Watched {
     /// Whether there may be an event in the current step, of size `h`.
     pub(crate) fn suspicious(&self, h: f64) -> bool {
-        suspicious(self.side, h, &self.start, &self.end)
+        self.dip.is_some() || suspicious(self.side, h, &self.start, &self.end)
     }
 
     /// Goes on to the next step: there was no event.
     pub(crate) fn move_on(&mut self) {
         self.start = self.end;
+        self.dip = None;
         if self.end.value.abs() > self.end.rounding {
             self.side = Side::of(self.end.value);
         }
@@ -56,7 +60,7 @@ impl Watched {
     }
 
     /// Whether the function depends on time and parameters only, as far as the current step shows.
-    fn clock_only(&self) -> bool {
+    pub(crate) fn clock_only(&self) -> bool {
         self.start.clock_only && self.end.clock_only
     }
 }
@@ -94,7 +98,7 @@ pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
         };
         let largest = kept.map_or(0.0, |k| k.largest).max(reading.value.abs());
         let fastest = kept.map_or(0.0, |k| k.fastest).max(reading.rate.abs());
-        watched.push(Watched { surface, direction, side, start: reading, end: reading, largest, fastest });
+        watched.push(Watched { surface, direction, side, start: reading, end: reading, largest, fastest, dip: None });
     }
     Ok(watched)
 }
@@ -118,7 +122,7 @@ pub(crate) fn first_events<M: Model<N, P, Q>, const N: usize, const P: usize, co
             frame.read::<M, N, Q>(w.surface, step.tau + u * step.h, &x)
         };
         let largest = w.largest.max(w.end.value.abs());
-        let ends = (&w.start, &w.end, step.h);
+        let ends = (&w.start, &w.end, step.h, w.dip);
         match passage(w.side, w.direction, ends, largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
             Some(Passage::Crossing { low, high, at, from }) => {
                 let bracket = (low * step.h, high * step.h);

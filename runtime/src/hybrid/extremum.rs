@@ -7,6 +7,7 @@
 use super::functionals::{Variation, Varied, along, observe};
 use super::passing::Place;
 use super::rates::Rates;
+use super::resolution::PLACES;
 use super::run::Run;
 use super::segment::state_step;
 use crate::event::{Frame, StateStep, root};
@@ -48,26 +49,25 @@ where
         }
     }
 
-    /// Looks for extrema inside the current step.
+    /// Looks for extrema inside the current step, between its ends and the places of [`PLACES`].
     pub(crate) fn examine_extrema(&mut self) {
-        let end_tau = self.step.tau + self.step.h;
+        if self.functionals.extrema.is_empty() {
+            return;
+        }
+        let step = state_step(&self.step);
         for e in 0..self.functionals.extrema.len() {
             let extremum = self.functionals.extrema[e];
-            let (o, sense, start) = (extremum.observable, extremum.sense, extremum.last);
-            let (value, rate) = self.slope(o, end_tau, &self.step.end.x, &self.step.end_rates.x);
-            let end = (sense * value, sense * rate);
+            let peak = Peak { observable: extremum.observable, sense: extremum.sense };
+            let end_tau = self.step.tau + self.step.h;
+            let (value, rate) = self.slope(peak.observable, end_tau, &self.step.end.x, &self.step.end_rates.x);
+            let end = (peak.sense * value, peak.sense * rate);
             self.functionals.extrema[e].last = end;
-            let Some(bracket) = bracket(start, end, self.step.h) else {
-                continue;
-            };
-            let better_than = extremum.best.map_or(f64::NEG_INFINITY, |best| sense * best.value);
-            let better_than = better_than - 1e-6 * (start.0.abs() + end.0.abs());
-            let peak = Peak { observable: o, sense, bracket, better_than };
-            let step = state_step(&self.step);
-            let found = peak.find::<M, N, P, Q>(self.segment.frame(), &step, (start.1, end.1));
-            self.statistics.evaluations += 3;
+            let best = extremum.best.map_or(f64::NEG_INFINITY, |best| peak.sense * best.value);
+            let better_than = best - 1e-6 * (extremum.last.0.abs() + end.0.abs());
+            let found = peak.find::<M, N, P, Q>(self.segment.frame(), &step, (extremum.last, end), better_than);
+            self.statistics.evaluations += 3 + PLACES.len();
             if let Some(h) = found {
-                let candidate = self.observe_inside(o, h);
+                let candidate = self.observe_inside(peak.observable, h);
                 self.functionals.extrema[e].offer(candidate);
                 self.statistics.evaluations += 23;
             }
@@ -86,70 +86,65 @@ where
     }
 }
 
-/// Where in a step a maximum of `sense` times an observable is looked for.
+/// What is largest: `sense` times an observable.
 #[derive(Clone, Copy, Debug)]
 struct Peak {
     observable: usize,
     sense: f64,
-    bracket: Bracket,
-    /// Smaller maxima do not matter.
-    better_than: f64,
 }
 
-/// Between which fractions of the step the rate turns from positive to negative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Bracket {
-    Whole,
-    Until(f64),
-    From(f64),
-}
+/// Value and rate of a function at a fraction of a step.
+type Knot = (f64, (f64, f64));
 
 impl Peak {
-    /// The time after the start of the step, from the dense output and one Newton step on the true rate.
+    /// The time after the start of the step of the largest interior maximum, from the dense output and one Newton step
+    /// on the true rate; `None` when there is none that is larger than `better_than`.
     #[inline(never)]
     fn find<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
         &self,
         frame: Frame<'_, P>,
         step: &StateStep<N>,
-        (r0, r1): (f64, f64),
+        (start, end): ((f64, f64), (f64, f64)),
+        better_than: f64,
     ) -> Option<f64> {
         let flow = |tau: f64, x: &[f64; N]| frame.flow::<M, N, Q>(tau, x);
         let dense: Dense<N> = Dense::new(step, &flow);
-        let rate_of = |tau: f64, x: &[f64; N]| {
+        let read = |tau: f64, x: &[f64; N]| {
             let g = M::observable_gradient(self.observable, frame.mode, x, &frame.env(tau));
-            self.sense * (dot(&g.dx, &flow(tau, x)) + g.dtau + g.dt)
+            (self.sense * g.value, self.sense * (dot(&g.dx, &flow(tau, x)) + g.dtau + g.dt))
         };
-        let rate = |u: f64| rate_of(step.tau + u * step.h, &dense.at(u));
-        let (a, ra, b, rb) = match self.bracket {
-            Bracket::Whole => (0.0, r0, 1.0, r1),
-            Bracket::Until(u) => (0.0, r0, u, rate(u)),
-            Bracket::From(u) => (u, rate(u), 1.0, r1),
-        };
-        if !(ra > 0.0 && rb < 0.0) {
-            return None;
+        let inside = |u: f64| read(step.tau + u * step.h, &dense.at(u));
+        let rate = |u: f64| inside(u).1;
+        let mut knots: [Knot; PLACES.len() + 2] = [(0.0, start); PLACES.len() + 2];
+        for (knot, u) in knots.iter_mut().skip(1).zip(PLACES) {
+            *knot = (u, inside(u));
         }
-        let u = root(rate, a, ra, b, rb);
-        let value = M::observable(self.observable, frame.mode, &dense.at(u), &frame.env(step.tau + u * step.h));
-        // Written so that NaN is looked at.
-        if self.sense * value < self.better_than {
+        knots[PLACES.len() + 1] = (1.0, end);
+        let maxima = knots.windows(2).filter_map(|pair| maximum_between(pair[0], pair[1], step.h, &rate));
+        let values = maxima.map(|u| (u, inside(u).0));
+        // NaN compares as largest and is looked at.
+        let (u, value) = values.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        if value < better_than {
             return None;
         }
         let near = (1e-4_f64).min(0.5 * u.min(1.0 - u)).max(1e-9);
         let bend = (rate(u + near) - rate(u - near)) / (2.0 * near * step.h);
         let h = u * step.h;
-        let correction = rate_of(step.tau + h, &frame.restep::<M, N, Q>(step, h)) / bend;
+        let correction = read(step.tau + h, &frame.restep::<M, N, Q>(step, h)).1 / bend;
         // The correction is of the size of the dense output's error; anything else means that there is no bend.
         Some(if correction.abs() <= 1e-3 * step.h { h - correction } else { h })
     }
 }
 
-/// Whether a maximum may lie inside a step, from values and rates at its ends.
-fn bracket((v0, r0): (f64, f64), (v1, r1): (f64, f64), h: f64) -> Option<Bracket> {
-    if r0 > 0.0 && r1 < 0.0 {
-        return Some(Bracket::Whole);
+/// The place of a maximum between two knots, if values and rates there tell of one.
+fn maximum_between((a, at_a): Knot, (b, at_b): Knot, h: f64, rate: &impl Fn(f64) -> f64) -> Option<f64> {
+    let (mut low, mut high) = ((a, at_a.1), (b, at_b.1));
+    if !(low.1 > 0.0 && high.1 < 0.0) {
+        let inner = a + (b - a) * inner_turn(at_a, at_b, (b - a) * h)?;
+        let middle = (inner, rate(inner));
+        if low.1 > 0.0 { high = middle } else { low = middle }
     }
-    let inner = inner_turn((v0, r0), (v1, r1), h)?;
-    Some(if r0 > 0.0 { Bracket::Until(inner) } else { Bracket::From(inner) })
+    (low.1 > 0.0 && high.1 < 0.0).then(|| root(rate, low.0, low.1, high.0, high.1))
 }
 
 /// Where the rate of the cubic through values and rates at both ends is smallest or largest, if it has a zero there that

@@ -9,6 +9,7 @@ mod map;
 mod passing;
 mod rates;
 mod request;
+mod resolution;
 mod run;
 mod segment;
 

@@ -14,6 +14,9 @@ use core::marker::PhantomData;
 /// Steps in a row that may fail before the run gives up.
 const MOST_REJECTIONS: usize = 80;
 
+/// By how much the largest allowed step grows after each step that was short enough.
+const CEILING_GROWTH: f64 = 1.25;
+
 /// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
 pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> {
     /// How accurately and how far.
@@ -26,6 +29,8 @@ pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, 
     pub(crate) controller: Controller,
     /// Size of the next step; 0 before the first.
     pub(crate) h: f64,
+    /// Largest step that surfaces and observables allow; grows while they are resolved.
+    pub(crate) ceiling: f64,
     /// Surfaces of the current mode.
     pub(crate) watched: Vec<Watched>,
     /// Functionals other than integrals.
@@ -60,6 +65,7 @@ where
             step,
             controller: Controller::default(),
             h: 0.0,
+            ceiling: f64::INFINITY,
             watched: Vec::new(),
             functionals,
             events: Vec::new(),
@@ -102,9 +108,16 @@ where
             if size <= 1.0 && !self.finish_step() {
                 size = f64::NAN;
             }
+            if size <= 1.0 && !self.resolved() {
+                self.ceiling = 0.5 * h;
+                self.h = self.ceiling;
+                self.statistics.rejected += 1;
+                continue;
+            }
             let (accepted, next) = self.controller.judge(size, h);
-            self.h = next;
+            self.h = next.min(self.ceiling);
             if accepted {
+                self.ceiling *= CEILING_GROWTH;
                 self.statistics.steps += 1;
                 return Ok(());
             }

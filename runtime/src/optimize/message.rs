@@ -26,7 +26,8 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
             "the objective improves without limit; bound it with a constraint or narrow the ranges".to_owned()
         }
         Status::IterationLimit => format!(
-            "no optimum within {} iterations (KKT residual {:.1e}); allow more iterations or start closer",
+            "no optimum within {} iterations (KKT residual {:.1e}); if the objective or a constraint has a kink here (abs, \
+             min, max, if), state it as two smooth constraints; else start closer to the optimum",
             solution.iterations, solution.kkt_residual
         ),
         Status::Stalled => format!(

@@ -223,6 +223,9 @@ impl Problem<'_> {
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), ProblemError> {
         let info = self.map.info();
+        if info.uses_time {
+            return Err(RequestError::ExplicitTime(info.name).into());
+        }
         length("parameters", info.parameters.len(), self.parameters.len())?;
         length("memory", info.memory.len(), self.memory.len())?;
         length("the first guess of the section coordinates", info.coordinates.len(), self.start.len())?;

@@ -87,8 +87,11 @@ const ITERATES_A_START: usize = 4;
 /// Finds a gait near `guess` (section coordinates, SI units).
 ///
 /// # Errors
-/// When the request is wrong: lengths, numbers that are not finite, a model without a section.
+/// When the request is wrong: lengths, numbers that are not finite, a model without a section or with explicit time.
 pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) -> Result<GaitOutcome, RequestError> {
+    if map.info().uses_time {
+        return Err(RequestError::ExplicitTime(map.info().name));
+    }
     let search = Search { map, request };
     let mut start = guess.to_vec();
     let mut best: Option<Point> = None;
@@ -209,16 +212,20 @@ impl Search<'_> {
     }
 
     fn finish(&self, best: Option<Point>, stop: Option<Stop>, iterations: usize) -> Result<GaitOutcome, RequestError> {
-        let residual = best.as_ref().map_or(f64::INFINITY, |b| b.residual);
-        let converged = residual <= self.request.tolerance;
-        let status = match stop {
-            _ if converged => GaitStatus::Converged,
-            Some(stop) if best.is_none() => GaitStatus::Stopped(stop),
-            _ => GaitStatus::NotConverged,
-        };
+        let mut residual = best.as_ref().map_or(f64::INFINITY, |b| b.residual);
         let gait = match best {
             Some(point) => Some(self.gait(point)?),
             None => None,
+        };
+        // What is reported comes from a run of its own, with measures: it has to close as well.
+        if let Some(gait) = &gait {
+            residual = residual.max(self::residual(&gait.coordinates, &gait.map.coordinates));
+        }
+        let converged = residual <= self.request.tolerance;
+        let status = match stop {
+            _ if converged => GaitStatus::Converged,
+            Some(stop) if gait.is_none() => GaitStatus::Stopped(stop),
+            _ => GaitStatus::NotConverged,
         };
         let message = message(&status, residual, self.request.tolerance);
         Ok(GaitOutcome { status, message, gait, residual, iterations })
