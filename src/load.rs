@@ -61,7 +61,8 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
     let entry = find(name, folder)?;
     let path = folder.join(format!("{name}.toml"));
     // A folder that was asked for has to have the file; the default folder need not.
-    if specs.is_none() && !path.exists() {
+    // A link that leads nowhere is there, and is reported when it is read.
+    if specs.is_none() && path.symlink_metadata().is_err() {
         return embedded(entry);
     }
     let parsed = front::parse_file(&path).map_err(|error| LoadError::Read { path: path.clone(), error })?;

@@ -42,7 +42,9 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["optimize", "prescribed_length", "--subject-to", "mean_power"], &["mean_power", "<="]),
     (&["optimize", "prescribed_length", "--starts", "0"], &["--starts"]),
     (&["verify", "prescribed_length", "--samples", "0"], &["--samples"]),
+    (&["gait", "prescribed_length", "--set", "psi=20 deg", "--set", "psi=30 deg"], &["`psi` is given twice"]),
     (&["check", "no/such/file.toml"], &["no/such/file.toml"]),
+    (&["check", "specs"], &["specs", "not a regular file"]),
     (&["frobnicate"], &["frobnicate"]),
 ];
 
@@ -123,4 +125,29 @@ fn models_and_help_are_there() {
     for args in [&["--help"][..], &["gait", "--help"], &["optimize", "--help"], &["--version"]] {
         assert_eq!(text(args).0, 0, "{args:?}");
     }
+}
+
+#[test]
+fn a_value_outside_its_range_is_pointed_out() {
+    let (code, value) = json(&["gait", "prescribed_length", "--set", "psi=20"]);
+    assert_eq!(code, 0);
+    let said = value["warnings"].to_string();
+    assert!(said.contains("`psi` = 1146 deg is outside the range"), "{said}");
+}
+
+#[test]
+fn wrong_input_is_json_too() {
+    let (code, value) = json(&["gait", "nope"]);
+    assert_eq!((code, value["status"].as_str()), (1, Some("error")), "{value:#}");
+    assert!(value["message"].as_str().unwrap().contains("`nope`"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_cannot_be_written_is_a_failure() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_gaitc"));
+    let output = command.arg("models").stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("could not be written"));
 }

@@ -36,6 +36,13 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
 }
 
+impl Command {
+    /// `check` has printed its diagnostics as JSON already when it fails.
+    pub(crate) fn prints_its_own_errors(&self) -> bool {
+        matches!(self, Self::Check(_))
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// Spec files

@@ -8,6 +8,10 @@ use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait
 use gaitc_runtime::return_map::{StopReason, Warning};
 use serde_json::{Map, Value, json};
 
+/// What a JSON answer says of a gait.
+const GAIT_KEYS: [&str; 9] =
+    ["section", "state", "duration", "jacobian", "multipliers", "spectral_radius", "stable", "measures", "events"];
+
 /// Longer periods are not gaits that anybody could tell from chaos.
 const LONGEST_PERIOD: usize = 1000;
 
@@ -22,7 +26,8 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let accuracy = inputs::accuracy(&args.search)?;
     let request = GaitRequest { period: args.period, accuracy, ..GaitRequest::new(&parameters, &memory) };
     let outcome = find_gait(loaded.compiled, &request, &guess)?;
-    let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome };
+    let warnings = inputs::outside_range(&loaded, &parameters);
+    let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };
     if cli.json {
         output::json(&report.json());
     } else {
@@ -35,6 +40,8 @@ struct Report<'a> {
     loaded: &'a Loaded,
     parameters: &'a [f64],
     outcome: &'a GaitOutcome,
+    /// What the user should know of the input.
+    warnings: Vec<String>,
 }
 
 impl Report<'_> {
@@ -71,9 +78,12 @@ impl Report<'_> {
             "message": self.outcome.message,
             "parameters": named(names, self.parameters),
             "residual": self.outcome.residual,
+            "warnings": self.all_warnings(),
         });
-        if let (Some(all), Some(gait)) = (all.as_object_mut(), self.gait()) {
-            all.extend(self.gait_json(gait));
+        // Without a gait the keys are there all the same, so that scripts need not ask.
+        let keys = || GAIT_KEYS.iter().map(|key| ((*key).to_owned(), Value::Null)).collect();
+        if let Some(all) = all.as_object_mut() {
+            all.extend(self.gait().map_or_else(keys, |gait| self.gait_json(gait)));
         }
         if let (Some(all), GaitStatus::Stopped(stop)) = (all.as_object_mut(), &self.outcome.status) {
             let state = named(spec.states.iter().map(|s| s.name.as_str()), &stop.state);
@@ -105,9 +115,22 @@ impl Report<'_> {
             ("stable", json!(gait.spectral_radius < 1.0)),
             ("measures", named(measures, map.measures.as_slice())),
             ("events", map.events.iter().map(event).collect()),
-            ("warnings", map.warnings.iter().map(|w| self.warning(w)).collect()),
         ] {
             all.insert(key.to_owned(), value);
+        }
+        all
+    }
+
+    /// Of the input, of the linearisation, and of measures that are no numbers.
+    fn all_warnings(&self) -> Vec<String> {
+        let mut all = self.warnings.clone();
+        if let Some(gait) = self.gait() {
+            all.extend(gait.map.warnings.iter().map(|w| self.warning(w)));
+            let measures = self.loaded.spec.measures.iter().zip(gait.map.measures.iter());
+            let undefined = measures.filter(|(_, value)| !value.is_finite());
+            all.extend(
+                undefined.map(|(m, value)| format!("the measure `{}` is not a finite number ({value})", m.name)),
+            );
         }
         all
     }
@@ -134,13 +157,13 @@ impl Report<'_> {
     fn text(&self) -> String {
         let spec = &self.loaded.spec;
         let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
+        for warning in self.all_warnings() {
+            text += &format!("warning: {warning}\n");
+        }
         let Some(gait) = self.gait() else {
             return text
                 + "help: try another start (--guess COORD=QUANTITY) or other parameters (--set NAME=QUANTITY)\n";
         };
-        for warning in &gait.map.warnings {
-            text += &format!("warning: {}\n", self.warning(warning));
-        }
         let coordinates = self.loaded.coordinates().iter().zip(gait.coordinates.iter());
         let mut rows: Vec<Vec<String>> = coordinates
             .map(|(&i, &value)| vec![spec.states[i].name.clone(), format_quantity(value, &spec.states[i].unit)])

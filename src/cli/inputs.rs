@@ -4,17 +4,40 @@ use super::InputError;
 use super::args::{ModelArgs, SearchArgs};
 use crate::load::Loaded;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
+use gaitc_compiler::front::format_quantity;
+use gaitc_compiler::ir::Parameter;
 use gaitc_runtime::return_map::Accuracy;
 
 /// The spec's parameter values with every `--set` applied.
 pub(super) fn parameters(loaded: &Loaded, args: &ModelArgs) -> Result<Vec<f64>, InputError> {
     let mut values = loaded.parameters();
+    let mut seen = Vec::new();
     for text in &args.set {
         let (name, quantity) = parse_assignment(text)?;
         let index = parameter(loaded, "--set", name)?;
+        once(&mut seen, "--set", name)?;
         values[index] = parse_quantity(quantity, loaded.spec.parameters[index].dimension)?;
     }
     Ok(values)
+}
+
+/// Refuses a name that a flag gives twice: which of the two is meant cannot be known.
+pub(super) fn once<'a>(seen: &mut Vec<&'a str>, flag: &str, name: &'a str) -> Result<(), InputError> {
+    if seen.contains(&name) {
+        return Err(InputError(format!("{flag}: `{name}` is given twice\n  help: keep one of the two")));
+    }
+    seen.push(name);
+    Ok(())
+}
+
+/// One sentence for each parameter outside the range that the spec gives for it.
+pub(super) fn outside_range(loaded: &Loaded, values: &[f64]) -> Vec<String> {
+    let outside = |(p, &value): (&Parameter, &f64)| {
+        let (lower, upper) = p.range.filter(|(lower, upper)| !(*lower..=*upper).contains(&value))?;
+        let [value, lower, upper] = [value, lower, upper].map(|v| format_quantity(v, &p.unit));
+        Some(format!("`{}` = {value} is outside the range that the spec gives for it, {lower} to {upper}", p.name))
+    };
+    loaded.spec.parameters.iter().zip(values).filter_map(outside).collect()
 }
 
 /// The section's start with every `--guess` applied.

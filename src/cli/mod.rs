@@ -39,15 +39,23 @@ pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(message) => {
-            // A closed stdout must not become a panic; help and version are not errors.
-            let _ = message.print();
-            return if message.use_stderr() { ExitCode::from(1) } else { ExitCode::SUCCESS };
+            if message.use_stderr() {
+                let _ = message.print();
+                return ExitCode::from(1);
+            }
+            // Help and version: printed like any result.
+            output::print(&message.render().ansi().to_string());
+            return if output::lost() { ExitCode::from(1) } else { ExitCode::SUCCESS };
         }
     };
     match run(&cli) {
+        Ok(_) if output::lost() => ExitCode::from(1),
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Without) => ExitCode::from(2),
         Err(InputError(message)) => {
+            if cli.json && !cli.command.prints_its_own_errors() {
+                output::json(&serde_json::json!({ "status": "error", "message": message }));
+            }
             output::error(&message);
             ExitCode::from(1)
         }

@@ -2,13 +2,20 @@
 
 use super::args::Cli;
 use super::{InputError, Outcome, output};
-use crate::load::{Loaded, load};
+use crate::load::{Loaded, embedded, load};
 use crate::models::MODELS;
+use gaitc_runtime::registry::Entry;
 use serde_json::{Value, json};
 
 pub(super) fn run(cli: &Cli) -> Result<Outcome, InputError> {
-    let specs = cli.specs.as_deref();
-    let all = MODELS.iter().map(|entry| load(entry.compiled.info().name, specs)).collect::<Result<Vec<_>, _>>()?;
+    // A spec that is wrong or was changed is listed as it was compiled, with what is wrong on stderr.
+    let listed = |entry: &Entry| {
+        load(entry.compiled.info().name, cli.specs.as_deref()).or_else(|problem| {
+            output::error(&format!("warning: {problem}"));
+            embedded(entry)
+        })
+    };
+    let all = MODELS.iter().map(listed).collect::<Result<Vec<_>, _>>()?;
     if cli.json {
         output::json(&json!({ "models": all.iter().map(describe).collect::<Vec<_>>() }));
     } else {

@@ -30,7 +30,9 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
         section: inputs::guess(&loaded, &args.search)?,
         settings,
     };
-    let solution = solve(&assemble(&loaded, &spec, &problem, start))?;
+    let warnings = inputs::outside_range(&loaded, &start.parameters);
+    let mut solution = solve(&assemble(&loaded, &spec, &problem, start))?;
+    solution.notes.splice(0..0, warnings);
     let report = Report { spec: &spec, problem: &problem, solution: &solution };
     if cli.json {
         report.print_json();

@@ -10,7 +10,7 @@ use serde_json::json;
 const ENOUGH: f64 = 12.0;
 
 /// More points than this make nothing surer.
-const MOST_SAMPLES: usize = 1_000_000;
+const MOST_SAMPLES: usize = 20_000;
 
 pub(super) fn run(cli: &Cli, args: &VerifyArgs) -> Result<Outcome, InputError> {
     if args.samples == 0 || args.samples > MOST_SAMPLES {

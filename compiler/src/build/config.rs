@@ -122,6 +122,7 @@ impl Config {
         let folders = self.folders()?;
         tell_cargo(&folders);
         let specs = read_folder(&folders.specs, &self.runtime_path)?;
+        pass_warnings(&specs);
         let mut report = Report::default();
         if !folders.is_checkout() && !self.regenerate && self.differences(&folders, &specs, None)?.is_empty() {
             report.mounted.clone_from(&folders.tree);
@@ -312,5 +313,13 @@ fn tell_cargo(folders: &Folders) {
     println!("cargo:rerun-if-changed={}", folders.specs.display());
     if folders.tree.is_dir() {
         println!("cargo:rerun-if-changed={}", folders.tree.display());
+    }
+}
+
+/// Shows the warnings of specs that compile all the same.
+#[expect(clippy::print_stdout, reason = "cargo reads a build script's standard output")]
+fn pass_warnings(specs: &[Spec]) {
+    for line in specs.iter().flat_map(|spec| spec.warnings.lines()) {
+        println!("cargo:warning={line}");
     }
 }

@@ -14,6 +14,8 @@ pub(super) struct Spec {
     pub(super) path: PathBuf,
     pub(super) model: Validated,
     pub(super) fingerprint: String,
+    /// Warnings of the front end, rendered; empty when there are none.
+    pub(super) warnings: String,
     /// Hash of all that the generated text depends on.
     pub(super) source_hash: String,
 }
@@ -23,7 +25,9 @@ pub(super) fn read_folder(folder: &Path, runtime_path: &str) -> Result<Vec<Spec>
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(BuildError::io(folder))? {
         let path = entry.map_err(BuildError::io(folder))?.path();
-        if path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
+        // Editors and file managers leave hidden files about.
+        let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        if !hidden && path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
             paths.push(path);
         }
     }
@@ -42,8 +46,9 @@ pub(super) fn read_folder(folder: &Path, runtime_path: &str) -> Result<Vec<Spec>
 /// One spec, or the report on what is wrong with it.
 fn read(path: &Path, runtime_path: &str) -> Result<Result<Spec, String>, BuildError> {
     let parsed = front::parse_file(path).map_err(BuildError::io(path))?;
+    let warnings = crate::diagnostic::render(&parsed.diagnostics, &parsed.sources, false);
     let Some(model) = parsed.model else {
-        return Ok(Err(crate::diagnostic::render(&parsed.diagnostics, &parsed.sources, false)));
+        return Ok(Err(warnings));
     };
     let wrong = |messages: &[String]| messages.iter().map(|m| format!("error: {}: {m}\n", path.display())).collect();
     if path.file_stem().is_none_or(|stem| stem != model.name.as_str()) {
@@ -57,6 +62,7 @@ fn read(path: &Path, runtime_path: &str) -> Result<Result<Spec, String>, BuildEr
             Ok(Spec {
                 name: model.model().name.clone(),
                 path: path.to_path_buf(),
+                warnings,
                 source_hash: stamp::source_hash(&model, &fingerprint, runtime_path),
                 fingerprint,
                 model,

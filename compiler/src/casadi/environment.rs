@@ -46,6 +46,8 @@ impl Search {
     /// When there is none; the message names the ways out.
     pub fn find(&self) -> Result<Python, CasadiError> {
         if let Some(command) = &self.named {
+            has_casadi(command)
+                .map_err(|reason| ways_out(&format!("{VARIABLE} is set to `{}`: {reason}", command.display())))?;
             return Ok(Python { command: command.clone(), packages: None });
         }
         let Some(folder) = &self.folder else {
@@ -73,6 +75,20 @@ fn ways_out(reason: &str) -> CasadiError {
          - `pip install casadi=={CASADI_VERSION}` in a Python of your own, and set {VARIABLE} to that Python\n\
          - use specs and generated code that belong together, unchanged: then no Python is needed"
     ))
+}
+
+/// Whether a Python of the user's can import CasADi; else why not.
+fn has_casadi(command: &Path) -> Result<(), String> {
+    let script = "import casadi; print('casadi', casadi.__version__)";
+    match converse(Command::new(command).args(["-c", script]), String::new()) {
+        Err(CasadiError::Process { source, .. }) => Err(source.to_string()),
+        Err(error) => Err(error.to_string()),
+        Ok(output) if !output.status.success() => {
+            Err(format!("it cannot import casadi\n{}", shown(&output).trim_end()))
+        }
+        Ok(output) if !output.stdout.starts_with(b"casadi") => Err("it is no Python".to_owned()),
+        Ok(_) => Ok(()),
+    }
 }
 
 /// What packages depend on: implementation, version and platform.

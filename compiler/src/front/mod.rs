@@ -43,9 +43,14 @@ pub struct Parsed {
 /// Reads a spec from a file.
 ///
 /// # Errors
-/// When the file cannot be opened or read. A file that is too large or not UTF-8 gives a diagnostic.
+/// When it is no regular file, or cannot be opened or read. A file that is too large or not UTF-8 gives a diagnostic.
 pub fn parse_file(path: &Path) -> std::io::Result<Parsed> {
-    let length = std::fs::metadata(path)?.len();
+    let metadata = std::fs::metadata(path)?;
+    if !metadata.is_file() {
+        // A device or a pipe may never end.
+        return Err(std::io::Error::other("this is not a regular file; a spec is a TOML file"));
+    }
+    let length = metadata.len();
     if length > SIZE_LIMIT {
         return Ok(unreadable(path, "", 0, &format!("this file has {length} bytes; a spec has at most {SIZE_LIMIT}")));
     }

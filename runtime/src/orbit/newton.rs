@@ -277,7 +277,7 @@ fn newton_step(point: &Point) -> Option<DVector<f64>> {
 
 fn message(status: &GaitStatus, residual: f64, tolerance: f64) -> String {
     match status {
-        GaitStatus::Converged => format!("converged, residual {residual:.1e}"),
+        GaitStatus::Converged => format!("the step maps onto itself to {residual:.1e}"),
         GaitStatus::Stopped(stop) => format!(
             "the map has no next section crossing from the guess: {} after {:.4} s; try another guess or other parameters",
             why(stop.reason),

@@ -14,9 +14,11 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
         (None, Some(text)) => fresh(&mut spec, Sense::Minimize, text)?,
         (None, None) => named(&spec, args.problem.as_deref())?,
     };
+    let mut seen = Vec::new();
     for text in &args.vary {
         let (name, range) = parse_assignment(text)?;
         let parameter = inputs::parameter(loaded, "--vary", name)?;
+        inputs::once(&mut seen, "--vary", name)?;
         let (lower, upper) = parse_range(range, spec.parameters[parameter].dimension)?;
         problem.vary.retain(|v| v.parameter != parameter);
         problem.vary.push(Vary { parameter, lower, upper });
