@@ -41,6 +41,7 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["optimize", "prescribed_length", "--subject-to", "mean_power <= 60 [m]"], &["mean_power"]),
     (&["optimize", "prescribed_length", "--subject-to", "mean_power"], &["mean_power", "<="]),
     (&["optimize", "prescribed_length", "--starts", "0"], &["--starts"]),
+    (&["optimize", "prescribed_length", "--maximize", "g", "--vary", "psi=1..45 deg"], &["`g` does not depend on"]),
     (&["verify", "prescribed_length", "--samples", "0"], &["--samples"]),
     (&["gait", "prescribed_length", "--set", "psi=20 deg", "--set", "psi=30 deg"], &["`psi` is given twice"]),
     (&["check", "no/such/file.toml"], &["no/such/file.toml"]),

@@ -4,7 +4,7 @@ use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs};
 use crate::load::Loaded;
 use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
-use gaitc_compiler::ir::{Model, Problem, Sense, Vary};
+use gaitc_compiler::ir::{Model, Problem, Sense, Symbol, Vary};
 
 /// The problem, and the spec with the expressions that the flags added.
 pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Problem), InputError> {
@@ -31,6 +31,18 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
             "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'"
                 .to_owned(),
         ));
+    }
+    let moves = |symbol: Symbol| match symbol {
+        Symbol::Parameter(i) => problem.vary.iter().any(|v| v.parameter == i),
+        Symbol::Measure(_) | Symbol::SpectralRadius => true,
+        _ => false,
+    };
+    if !spec.graph.depends(&[problem.objective], moves) {
+        return Err(InputError(format!(
+            "the objective `{}` does not depend on anything that varies\n  help: state it over measures or over the parameters \
+             that --vary names",
+            problem.objective_text
+        )));
     }
     Ok((spec, problem))
 }
