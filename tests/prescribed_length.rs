@@ -25,7 +25,7 @@ fn determinant_of_the_return_map_is_the_closed_form() {
         let gait = gait(degrees);
         let entry = |i: usize, j: usize| number(&gait, &format!("/jacobian/{i}/{j}"));
         let det = entry(0, 0) * entry(1, 1) - entry(0, 1) * entry(1, 0);
-        assert_abs_diff_eq!(det, determinant(degrees.to_radians()), epsilon = 1e-10);
+        assert_abs_diff_eq!(det, determinant(degrees.to_radians()), epsilon = 1e-12);
         assert_abs_diff_eq!(number(&gait, "/duration"), 1.0 / 6.0, epsilon = 1e-13);
         assert!(number(&gait, "/residual") < 1e-10);
     }
