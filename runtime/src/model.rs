@@ -8,7 +8,8 @@
 //! (`dx[j][i]` is the derivative of component `i` with respect to `x[j]`), the layout of `nalgebra::SMatrix`.
 //!
 //! The residual form F(x, k, tau, t, p; branch) = M(x) k - f, with k = x', serves implicit methods and singular mass
-//! matrices; the explicit f is there for models without a mass matrix ([`ModelInfo::explicit`]).
+//! matrices; the explicit f is there for models without a mass matrix ([`ModelInfo::explicit`]). Integrands and
+//! observables may depend on rates: a model with an explicit f puts it in their place, other models take k as an argument.
 
 use crate::scalar::Scalar;
 
@@ -74,6 +75,47 @@ pub struct ResidualJacobian<S, const N: usize, const P: usize> {
     pub dt: [S; N],
 }
 
+/// The residual F(x, k, ...) with the matrices that Newton's method on it needs (arrays of columns).
+#[derive(Clone, Copy, Debug)]
+pub struct Linearised<S, const N: usize> {
+    /// The value.
+    pub value: [S; N],
+    /// With respect to the state.
+    pub dx: [[S; N]; N],
+    /// With respect to the rate k: the mass matrix.
+    pub dk: [[S; N]; N],
+}
+
+/// A scalar function of state and rate with all its first derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct RateGradient<S, const N: usize, const P: usize> {
+    /// The value.
+    pub value: S,
+    /// With respect to the state.
+    pub dx: [S; N],
+    /// With respect to the rate k; zeros where the model has an explicit f, which stands in for k.
+    pub dk: [S; N],
+    /// With respect to the parameters.
+    pub dp: [S; P],
+    /// With respect to tau.
+    pub dtau: S,
+    /// With respect to t.
+    pub dt: S,
+}
+
+/// C directions along which a function of state, rate, parameters and t is differentiated.
+#[derive(Clone, Copy, Debug)]
+pub struct Directions<'a, S, const N: usize, const P: usize, const C: usize> {
+    /// Variations of the state.
+    pub dx: &'a [[S; N]; C],
+    /// Variations of the rate.
+    pub dk: &'a [[S; N]; C],
+    /// Variations of the parameters.
+    pub dp: &'a [[S; P]; C],
+    /// Variations of t.
+    pub dt: &'a [S; C],
+}
+
 /// Flow, integrands and their variational columns, computed in one pass.
 #[derive(Clone, Copy, Debug)]
 pub struct Integrated<S, const N: usize, const Q: usize, const C: usize> {
@@ -129,6 +171,21 @@ pub trait Model<const N: usize, const P: usize, const Q: usize>: Copy + Default 
         env: &Env<'_, S, P>,
     ) -> ResidualJacobian<S, N, P>;
 
+    /// F with its derivatives in x and k.
+    fn residual_linearised<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> Linearised<S, N>;
+
+    /// The Q integrands at state x and rate k.
+    fn integrands<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> [S; Q];
+
+    /// The integrands and their derivatives along C directions.
+    fn integrands_along<S: Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; N],
+        k: &[S; N],
+        along: &Directions<'_, S, N, P, C>,
+        env: &Env<'_, S, P>,
+    ) -> ([S; Q], [[S; Q]; C]);
+
     /// Switching function number `index`, evaluated under the frozen selectors of `env`.
     fn switch<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
 
@@ -163,10 +220,16 @@ pub trait Model<const N: usize, const P: usize, const Q: usize>: Copy + Default 
     fn symmetry_jacobian<S: Scalar>(x: &[S; N], p: &[S; P]) -> Jacobian<S, N, P>;
 
     /// Expression number `index` of those that start, end, maximum and minimum functionals refer to.
-    fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> S;
+    fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> S;
 
     /// Observable with all first derivatives.
-    fn observable_gradient<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P>;
+    fn observable_gradient<S: Scalar>(
+        index: usize,
+        mode: usize,
+        x: &[S; N],
+        k: &[S; N],
+        env: &Env<'_, S, P>,
+    ) -> RateGradient<S, N, P>;
 
     /// Measures (`out`) from the values of the functionals, in the order of [`ModelInfo::functionals`].
     fn measures<S: Scalar>(functionals: &[S], p: &[S; P], out: &mut [S]);
@@ -207,6 +270,24 @@ pub struct TransitionInfo {
     pub to: usize,
     /// Crossing direction that fires.
     pub direction: Direction,
+    /// Other functions that are zero when it fires, by their functionals.
+    pub also_zero: &'static [AlsoZero],
+}
+
+/// A function that vanishes together with a guard, so that people can see whether it would have served as the guard:
+/// one that only touches zero would not. Indices into [`ModelInfo::functionals`].
+#[derive(Clone, Copy, Debug)]
+pub struct AlsoZero {
+    /// The function as the spec writes it.
+    pub text: &'static str,
+    /// SI base units of the function.
+    pub si: &'static str,
+    /// Its value at the start of the map.
+    pub start: usize,
+    /// Its value just before the transition.
+    pub end: usize,
+    /// Its time derivative there.
+    pub rate: usize,
 }
 
 /// Structure of a continuous mode.

@@ -18,6 +18,10 @@ pub enum Function {
     Integrated(usize),
     /// F of a mode.
     Residual(usize),
+    /// F of a mode, by `residual_linearised`: derivatives in state and rate only.
+    Linearised(usize),
+    /// Integrands of a mode, by `integrands_along`.
+    Integrands(usize),
     /// A switching function.
     Switch(usize),
     /// Guard of a transition.
@@ -114,7 +118,10 @@ pub fn functions(info: &ModelInfo) -> Vec<Function> {
         if info.explicit {
             all.extend([Function::Flow(mode), Function::Variational(mode), Function::Integrated(mode)]);
         }
-        all.push(Function::Residual(mode));
+        all.extend([Function::Residual(mode), Function::Linearised(mode)]);
+        if integrals(info) > 0 {
+            all.push(Function::Integrands(mode));
+        }
     }
     all.extend((0..info.switches.len()).map(Function::Switch));
     for transition in 0..info.transitions.len() {
@@ -136,6 +143,15 @@ pub fn functions(info: &ModelInfo) -> Vec<Function> {
         all.push(Function::Measures);
     }
     all
+}
+
+/// Number of time integrals.
+pub fn integrals(info: &ModelInfo) -> usize {
+    let index = |f: &Functional| match *f {
+        Functional::Integral(i) | Functional::Mean(i) => Some(i + 1),
+        _ => None,
+    };
+    info.functionals.iter().filter_map(index).max().unwrap_or(0)
 }
 
 /// Number of observables.

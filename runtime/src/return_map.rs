@@ -19,12 +19,27 @@ pub struct Accuracy {
     pub time_limit: f64,
     /// Most steps of one map.
     pub step_limit: usize,
+    /// How to integrate.
+    pub method: Method,
 }
 
 impl Default for Accuracy {
     fn default() -> Self {
-        Self { relative: 1e-12, absolute: 1e-13, time_limit: 100.0, step_limit: 100_000 }
+        Self { relative: 1e-12, absolute: 1e-13, time_limit: 100.0, step_limit: 100_000, method: Method::Automatic }
     }
+}
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// `Radau5` for models with a mass matrix and for runs that turn out to be stiff, `Explicit` for all others.
+    Automatic,
+    /// Explicit Runge-Kutta method of order 8; needs a model without a mass matrix.
+    Explicit,
+    /// Radau IIA with 5 stages, order 9.
+    Radau5,
+    /// Radau IIA with 3 stages, order 5.
+    Radau3,
 }
 
 /// One evaluation of the return map.
@@ -77,10 +92,29 @@ pub struct MapResult {
     pub measures_jacobian: DMatrix<f64>,
     /// Transitions in order of time.
     pub events: Vec<Event>,
+    /// Functions that are zero together with the guard of the section's transition; empty unless measures were asked for.
+    pub also_zero: Vec<AlsoZeroAt>,
     /// Work done.
     pub statistics: Statistics,
+    /// The method that was used; never `Automatic`.
+    pub method: Method,
     /// What the user has to know about the linearisation (grazing, ties).
     pub warnings: Vec<Warning>,
+}
+
+/// How a function that should be zero together with a guard goes through the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AlsoZeroAt {
+    /// Index into `info().transitions`.
+    pub transition: usize,
+    /// Index into the transition's `also_zero`.
+    pub index: usize,
+    /// Value at the start of the map.
+    pub start: f64,
+    /// Value just before the transition.
+    pub end: f64,
+    /// Time derivative there; 0 where the function only touches zero.
+    pub rate: f64,
 }
 
 /// A transition that fired.
@@ -92,6 +126,8 @@ pub struct Event {
     pub time: f64,
     /// Time derivative of the guard along the flow just before it fired, in the guard's unit per second.
     pub transversality: f64,
+    /// Largest magnitude of that derivative since the transition before (seen at the ends of steps).
+    pub fastest: f64,
 }
 
 /// Something that limits what a completed map means.
@@ -194,6 +230,9 @@ pub enum RequestError {
          (phi' = omega) and a section coordinate instead of using `t`"
     )]
     ExplicitTime(&'static str),
+    /// The explicit method was asked for where there is no explicit flow.
+    #[error("model `{0}` has a mass matrix, which the explicit method cannot treat; take `radau5` or `radau3`")]
+    NoExplicitFlow(&'static str),
     /// The model has no section, so it has no return map.
     #[error("model `{0}` has no [section], so it has no return map")]
     NoSection(&'static str),

@@ -28,7 +28,13 @@ impl Equations<3, 4, 0> for Table {
         parameters: &[quantity("g"), quantity("A"), quantity("f"), quantity("e")],
         states: &[quantity("h"), quantity("v"), quantity("phi")],
         modes: ONE_MODE,
-        transitions: &[TransitionInfo { name: "impact", from: 0, to: 0, direction: Direction::Falling }],
+        transitions: &[TransitionInfo {
+            name: "impact",
+            from: 0,
+            to: 0,
+            direction: Direction::Falling,
+            also_zero: &[],
+        }],
         coordinates: &[1, 2],
         symmetric: true,
         ..BLANK
@@ -84,7 +90,7 @@ impl Equations<2, 1, 0> for Clock {
         parameters: &[quantity("k")],
         states: &[quantity("x"), quantity("phi")],
         modes: ONE_MODE,
-        transitions: &[TransitionInfo { name: "tick", from: 0, to: 0, direction: Direction::Rising }],
+        transitions: &[TransitionInfo { name: "tick", from: 0, to: 0, direction: Direction::Rising, also_zero: &[] }],
         coordinates: &[0],
         functionals: &[Functional::Maximum(0), Functional::Minimum(0)],
         measures: &[quantity("highest"), quantity("lowest")],

@@ -22,17 +22,26 @@ where
 {
     /// Value and rate of an observable.
     fn slope(&self, observable: usize, tau: f64, x: &[f64; N], flow: &[f64; N]) -> (f64, f64) {
-        let g = M::observable_gradient(observable, self.segment.mode, x, &self.segment.env(tau));
+        let g = M::observable_gradient(observable, self.segment.mode, x, flow, &self.segment.env(tau));
         (g.value, dot(&g.dx, flow) + g.dtau + g.dt)
     }
 
     /// Offers the place where the run is, an end of a segment.
     pub(crate) fn observe_boundary(&mut self, place: &Place<N, C>) {
-        let (segment, x, tau) = (&self.segment, &self.step.start.x, self.step.tau);
+        let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.stages[0].x), self.step.tau);
         for extremum in &mut self.functionals.extrema {
             let candidate =
                 observe::<M, N, P, Q, C>(extremum.observable, segment.mode, x, &segment.env(tau), |g, c| {
-                    along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: place.dtau[c], dt: place.dt[c] })
+                    along(
+                        g,
+                        Variation {
+                            dx: &place.dx[c],
+                            dk: &place.dk[c],
+                            dp: &segment.dp[c],
+                            dtau: place.dtau[c],
+                            dt: place.dt[c],
+                        },
+                    )
                 });
             extremum.offer(candidate);
         }
@@ -80,8 +89,9 @@ where
         let (segment, tau) = (&self.segment, self.step.tau + h);
         let mut k = self.step.stages;
         let y = Self::attempt(segment, self.step.tau, h, &self.step.start, &mut k);
-        observe::<M, N, P, Q, C>(observable, segment.mode, &y.x, &segment.env(tau), |g, c| {
-            along(g, Variation { dx: &y.dx[c], dp: &segment.dp[c], dtau: 0.0, dt: segment.dstart[c] })
+        let rate = self.segment.frame().flow::<M, N, Q>(tau, &y.x);
+        observe::<M, N, P, Q, C>(observable, segment.mode, (&y.x, &rate), &segment.env(tau), |g, c| {
+            along(g, Variation { dx: &y.dx[c], dk: &[0.0; N], dp: &segment.dp[c], dtau: 0.0, dt: segment.dstart[c] })
         })
     }
 }
@@ -110,8 +120,9 @@ impl Peak {
         let flow = |tau: f64, x: &[f64; N]| frame.flow::<M, N, Q>(tau, x);
         let dense: Dense<N> = Dense::new(step, &flow);
         let read = |tau: f64, x: &[f64; N]| {
-            let g = M::observable_gradient(self.observable, frame.mode, x, &frame.env(tau));
-            (self.sense * g.value, self.sense * (dot(&g.dx, &flow(tau, x)) + g.dtau + g.dt))
+            let rate = flow(tau, x);
+            let g = M::observable_gradient(self.observable, frame.mode, x, &rate, &frame.env(tau));
+            (self.sense * g.value, self.sense * (dot(&g.dx, &rate) + g.dtau + g.dt))
         };
         let inside = |u: f64| read(step.tau + u * step.h, &dense.at(u));
         let rate = |u: f64| inside(u).1;

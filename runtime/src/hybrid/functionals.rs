@@ -3,7 +3,7 @@
 //! The place of an interior extremum moves with the parameters, but its value does not feel that (envelope theorem):
 //! there d max = o_x v + o_p w + o_t s. At the ends of a segment the whole variation counts, with the event's time.
 
-use crate::model::{Env, Functional, Gradient, Model, ModelInfo};
+use crate::model::{Env, Functional, Model, ModelInfo, RateGradient};
 use crate::sensitivity::dot;
 
 /// One column of variations at a point: of state, parameters, tau and t.
@@ -11,6 +11,8 @@ use crate::sensitivity::dot;
 pub(crate) struct Variation<'a, const N: usize, const P: usize> {
     /// Of the state.
     pub(crate) dx: &'a [f64; N],
+    /// Of the rate.
+    pub(crate) dk: &'a [f64; N],
     /// Of the parameters.
     pub(crate) dp: &'a [f64; P],
     /// Of tau.
@@ -29,8 +31,19 @@ pub(crate) struct Varied<const C: usize> {
 }
 
 /// The chain rule for a scalar function.
-pub(crate) fn along<const N: usize, const P: usize>(g: &Gradient<f64, N, P>, v: Variation<'_, N, P>) -> f64 {
-    dot(&g.dx, v.dx) + dot(&g.dp, v.dp) + g.dtau * v.dtau + g.dt * v.dt
+pub(crate) fn along<const N: usize, const P: usize>(g: &RateGradient<f64, N, P>, v: Variation<'_, N, P>) -> f64 {
+    dot(&g.dx, v.dx) + rate_term(g, v.dk) + dot(&g.dp, v.dp) + g.dtau * v.dtau + g.dt * v.dt
+}
+
+/// The part of the rates; a rate that does not matter must not spoil it by not being known.
+fn rate_term<const N: usize, const P: usize>(g: &RateGradient<f64, N, P>, dk: &[f64; N]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..N {
+        if g.dk[i] != 0.0 {
+            sum += g.dk[i] * dk[i];
+        }
+    }
+    sum
 }
 
 /// An extremum that is being looked for.
@@ -134,10 +147,10 @@ fn quotient<const C: usize>(a: Varied<C>, b: Varied<C>) -> Varied<C> {
 pub(crate) fn observe<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>(
     index: usize,
     mode: usize,
-    x: &[f64; N],
+    (x, k): (&[f64; N], &[f64; N]),
     env: &Env<'_, f64, P>,
-    gradient: impl Fn(&Gradient<f64, N, P>, usize) -> f64,
+    gradient: impl Fn(&RateGradient<f64, N, P>, usize) -> f64,
 ) -> Varied<C> {
-    let g = M::observable_gradient(index, mode, x, env);
+    let g = M::observable_gradient(index, mode, x, k, env);
     Varied { value: g.value, gradient: core::array::from_fn(|c| gradient(&g, c)) }
 }

@@ -52,13 +52,22 @@ where
     /// Starts the segment that follows the start of a map or a transition.
     fn begin(&mut self, record: bool) -> Result<(), StopReason> {
         self.enter(None)?;
-        let place = Place { dx: self.step.start.dx, dtau: [0.0; C], dt: self.segment.dstart };
+        let place = Place { dx: self.step.start.dx, dk: [[0.0; N]; C], dtau: [0.0; C], dt: self.segment.dstart };
         self.begin_extrema(&place);
         if record {
-            let (segment, x) = (&self.segment, &self.step.start.x);
+            let (segment, x) = (&self.segment, (&self.step.start.x, &self.step.stages[0].x));
             self.functionals.record_start(M::INFO, |o| {
                 observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(0.0), |g, c| {
-                    along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: 0.0, dt: place.dt[c] })
+                    along(
+                        g,
+                        Variation {
+                            dx: &place.dx[c],
+                            dk: &place.dk[c],
+                            dp: &segment.dp[c],
+                            dtau: 0.0,
+                            dt: place.dt[c],
+                        },
+                    )
                 })
             });
         }

@@ -165,6 +165,8 @@ where
         measures,
         measures_jacobian,
         events: run.events.clone(),
+        also_zero: Vec::new(),
+        method: crate::return_map::Method::Explicit,
         statistics: run.statistics,
         warnings: run.warnings.clone(),
     }

@@ -15,10 +15,11 @@ const GRAZING: f64 = 1e-4;
 const HASTY: f64 = 1e-10;
 const MOST_HASTY: usize = 16;
 
-/// Derivatives of an event's place along the columns: of the state there, of tau and of the time since the start.
+/// Derivatives of an event's place along the columns: of state and rate there, of tau and of the time since the start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<const N: usize, const C: usize> {
     pub(crate) dx: [[f64; N]; C],
+    pub(crate) dk: [[f64; N]; C],
     pub(crate) dtau: [f64; C],
     pub(crate) dt: [f64; C],
 }
@@ -70,7 +71,7 @@ where
     /// Moves to the end of the step and says how that place depends on the columns.
     fn place(&mut self, crossing: &Crossing<'_, N, P>) -> Place<N, C> {
         self.move_on();
-        let mut place = Place { dx: self.step.start.dx, dtau: [0.0; C], dt: self.segment.dstart };
+        let mut place = Place { dx: self.step.start.dx, dk: [[0.0; N]; C], dtau: [0.0; C], dt: self.segment.dstart };
         for c in 0..C {
             let dtau = crossing.time_derivative(&place.dx[c], &self.segment.dp[c], self.segment.dstart[c]);
             place.dtau[c] = dtau;
@@ -112,7 +113,7 @@ where
         self.segment.memory = memory;
         self.segment.start = time;
         self.segment.dstart = place.dt;
-        self.events.push(Event { transition: i, time, transversality });
+        self.events.push(Event { transition: i, time, transversality, fastest: fastest.max(transversality.abs()) });
         self.segment.mode = M::INFO.transitions.get(i).map_or(usize::MAX, |t| t.to);
         self.check_finite()
     }
@@ -162,10 +163,19 @@ where
 
     /// The `End` functionals, where the run is, just before a reset.
     fn record_end(&mut self, place: &Place<N, C>) {
-        let (segment, x, tau) = (&self.segment, &self.step.start.x, self.step.tau);
+        let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.stages[0].x), self.step.tau);
         self.functionals.record_end(M::INFO, |o| {
             observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(tau), |g, c| {
-                along(g, Variation { dx: &place.dx[c], dp: &segment.dp[c], dtau: place.dtau[c], dt: place.dt[c] })
+                along(
+                    g,
+                    Variation {
+                        dx: &place.dx[c],
+                        dk: &place.dk[c],
+                        dp: &segment.dp[c],
+                        dtau: place.dtau[c],
+                        dt: place.dt[c],
+                    },
+                )
             })
         });
     }

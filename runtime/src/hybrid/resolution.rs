@@ -67,10 +67,14 @@ where
         let (tau, h) = (self.step.tau, self.step.h);
         self.functionals.extrema.iter().all(|extremum| {
             let (o, mode) = (extremum.observable, self.segment.mode);
-            let value = |i: usize| M::observable(o, mode, &inside[i], &self.segment.env(tau + PLACES[i] * h));
+            let value = |i: usize| {
+                let at = tau + PLACES[i] * h;
+                let rate = self.segment.frame().flow::<M, N, Q>(at, &inside[i]);
+                M::observable(o, mode, &inside[i], &rate, &self.segment.env(at))
+            };
             let values: [f64; PLACES.len()] = core::array::from_fn(value);
             let slope = |x: &[f64; N], flow: &[f64; N], tau: f64| {
-                let g = M::observable_gradient(o, mode, x, &self.segment.env(tau));
+                let g = M::observable_gradient(o, mode, x, flow, &self.segment.env(tau));
                 let size = (0..N).map(|i| (g.dx[i] * x[i]).abs()).sum::<f64>() + g.value.abs();
                 ((g.value, h * (dot(&g.dx, flow) + g.dtau + g.dt)), 64.0 * f64::EPSILON * size)
             };

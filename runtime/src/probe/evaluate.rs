@@ -1,7 +1,7 @@
 //! The probe of one compiled model: calls the generated functions and lays their arrays out as vectors.
 
 use super::{Evaluation, Function, Point, Variable};
-use crate::model::{Env, Gradient, Jacobian, Model, ResidualJacobian};
+use crate::model::{Directions, Env, Gradient, Jacobian, Model, RateGradient, ResidualJacobian};
 
 /// Calls one generated function of `M` at a point; `None` when a slice has the wrong length.
 pub(super) fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
@@ -21,6 +21,8 @@ pub(super) fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const 
         Function::Variational(mode) => variational::<M, N, P, Q>(mode, x, &env),
         Function::Integrated(mode) => integrated::<M, N, P, Q>(mode, x, &env),
         Function::Residual(mode) => residual(M::residual(mode, x, k, &env), M::residual_jacobian(mode, x, k, &env)),
+        Function::Linearised(mode) => linearised::<M, N, P, Q>(mode, x, k, &env),
+        Function::Integrands(mode) => integrands::<M, N, P, Q>(mode, x, k, &env),
         Function::Switch(i) => gradient(M::switch(i, x, &env), M::switch_gradient(i, x, &env)),
         Function::Guard(i) => gradient(M::guard(i, x, &env), M::guard_gradient(i, x, &env)),
         Function::Reset(i) => {
@@ -43,7 +45,8 @@ pub(super) fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const 
             all
         }
         Function::Observable { index, mode } => {
-            gradient(M::observable(index, mode, x, &env), M::observable_gradient(index, mode, x, &env))
+            let plain = M::observable(index, mode, x, k, &env);
+            rate_gradient(plain, M::observable_gradient(index, mode, x, k, &env))
         }
         Function::Measures => measures::<M, N, P, Q>(at.functionals, p),
     })
@@ -83,6 +86,54 @@ fn gradient<const N: usize, const P: usize>(plain: f64, g: Gradient<f64, N, P>) 
             (Variable::Parameter, rows(&g.dp)),
             (Variable::Tau, rows(&[g.dtau])),
             (Variable::Time, rows(&[g.dt])),
+        ],
+    }
+}
+
+fn rate_gradient<const N: usize, const P: usize>(plain: f64, g: RateGradient<f64, N, P>) -> Evaluation {
+    let RateGradient { value, dx, dk, dp, dtau, dt } = g;
+    let mut all = gradient(plain, Gradient { value, dx, dp, dtau, dt });
+    all.derivatives.push((Variable::Rate, dk.iter().map(|&v| vec![v]).collect()));
+    all
+}
+
+fn linearised<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    mode: usize,
+    x: &[f64; N],
+    k: &[f64; N],
+    env: &Env<'_, f64, P>,
+) -> Evaluation {
+    let l = M::residual_linearised(mode, x, k, env);
+    Evaluation {
+        value: l.value.to_vec(),
+        plain: M::residual(mode, x, k, env).to_vec(),
+        derivatives: vec![(Variable::State, columns(&l.dx)), (Variable::Rate, columns(&l.dk))],
+    }
+}
+
+fn integrands<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    mode: usize,
+    x: &[f64; N],
+    k: &[f64; N],
+    env: &Env<'_, f64, P>,
+) -> Evaluation {
+    let (u, z, p) = (unit::<N>(), [[0.0; N]; N], [[0.0; P]; N]);
+    let by = |dx, dk| M::integrands_along(mode, x, k, &Directions { dx, dk, dp: &p, dt: &[0.0; N] }, env);
+    let ((value, by_state), (_, by_rate)) = (by(&u, &z), by(&z, &u));
+    let none = &[[0.0; N]; P];
+    let along = Directions { dx: none, dk: none, dp: &unit::<P>(), dt: &[0.0; P] };
+    let (_, by_parameter) = M::integrands_along(mode, x, k, &along, env);
+    let still = &[[0.0; N]; 1];
+    let along = Directions { dx: still, dk: still, dp: &[[0.0; P]; 1], dt: &[1.0] };
+    let (_, by_time) = M::integrands_along(mode, x, k, &along, env);
+    Evaluation {
+        value: value.to_vec(),
+        plain: M::integrands(mode, x, k, env).to_vec(),
+        derivatives: vec![
+            (Variable::State, columns(&by_state)),
+            (Variable::Rate, columns(&by_rate)),
+            (Variable::Parameter, columns(&by_parameter)),
+            (Variable::Time, columns(&by_time)),
         ],
     }
 }

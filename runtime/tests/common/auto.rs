@@ -1,7 +1,9 @@
 //! The ABI from plain equations, with derivatives by dual numbers.
 
 use core::marker::PhantomData;
-use gaitc_runtime::model::{Env, Gradient, Integrated, Jacobian, Model, ModelInfo, ResidualJacobian};
+use gaitc_runtime::model::{
+    Directions, Env, Gradient, Integrated, Jacobian, Linearised, Model, ModelInfo, RateGradient, ResidualJacobian,
+};
 use gaitc_runtime::scalar::Scalar;
 use gaitc_runtime::sensitivity::Dual;
 
@@ -168,6 +170,26 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         let dk = core::array::from_fn(unit);
         ResidualJacobian { value, dx: j.dx.map(minus), dk, dp: j.dp.map(minus), dtau: minus(j.dtau), dt: minus(j.dt) }
     }
+    fn residual_linearised<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> Linearised<S, N> {
+        let ResidualJacobian { value, dx, dk, .. } = Self::residual_jacobian(mode, x, k, env);
+        Linearised { value, dx, dk }
+    }
+    fn integrands<S: Scalar>(mode: usize, x: &[S; N], _: &[S; N], env: &Env<'_, S, P>) -> [S; Q] {
+        E::integrands(mode, x, env)
+    }
+    fn integrands_along<S: Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; N],
+        _: &[S; N],
+        d: &Directions<'_, S, N, P, C>,
+        env: &Env<'_, S, P>,
+    ) -> ([S; Q], [[S; Q]; C]) {
+        let one = |k: usize| {
+            along(x, &d.dx[k], env, &d.dp[k], c(0.0), d.dt[k], |x, env| E::integrands(mode, x, env))
+                .map(|d| d.derivative)
+        };
+        (E::integrands(mode, x, env), core::array::from_fn(one))
+    }
     fn switch<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
         E::switch(index, x, env)
     }
@@ -213,11 +235,18 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
     fn symmetry_jacobian<S: Scalar>(x: &[S; N], p: &[S; P]) -> Jacobian<S, N, P> {
         jacobian(x, &bare(p), |x, env| E::symmetry(x, env.p))
     }
-    fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
+    fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], _: &[S; N], env: &Env<'_, S, P>) -> S {
         E::observable(index, mode, x, env)
     }
-    fn observable_gradient<S: Scalar>(index: usize, mode: usize, x: &[S; N], env: &Env<'_, S, P>) -> Gradient<S, N, P> {
-        gradient(x, env, |x, env| E::observable(index, mode, x, env))
+    fn observable_gradient<S: Scalar>(
+        index: usize,
+        mode: usize,
+        x: &[S; N],
+        _: &[S; N],
+        env: &Env<'_, S, P>,
+    ) -> RateGradient<S, N, P> {
+        let Gradient { value, dx, dp, dtau, dt } = gradient(x, env, |x, env| E::observable(index, mode, x, env));
+        RateGradient { value, dx, dk: [c(0.0); N], dp, dtau, dt }
     }
     fn measures<S: Scalar>(functionals: &[S], p: &[S; P], out: &mut [S]) {
         E::measures(functionals, p, out);

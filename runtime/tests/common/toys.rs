@@ -10,7 +10,7 @@ const ONE_MODE: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[], measured
 const SWITCHED: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[0], measured_switches: &[0] }];
 
 const fn self_transition(name: &'static str, direction: Direction) -> TransitionInfo {
-    TransitionInfo { name, from: 0, to: 0, direction }
+    TransitionInfo { name, from: 0, to: 0, direction, also_zero: &[] }
 }
 
 macro_rules! toy {

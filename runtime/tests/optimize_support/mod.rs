@@ -9,7 +9,7 @@ use gaitc_runtime::optimize::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, Sense, Settings, Solution, Value, Vary, solve,
 };
 use gaitc_runtime::return_map::{
-    MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Statistics, Stop, StopReason,
+    MapOutcome, MapRequest, MapResult, Method, RequestError, ReturnMap, Sensitivity, Statistics, Stop, StopReason,
 };
 use nalgebra::{DMatrix, DVector};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -168,6 +168,8 @@ impl ReturnMap for Closed {
             measures: values(&measures),
             measures_jacobian: slopes(&measures),
             events: vec![],
+            also_zero: vec![],
+            method: Method::Explicit,
             statistics: Statistics::default(),
             warnings: vec![],
         })))
