@@ -2,6 +2,7 @@
 
 pub(crate) mod event;
 pub mod hybrid;
+pub(crate) mod integrate;
 pub mod model;
 pub mod ode;
 pub mod optimize;

@@ -186,6 +186,8 @@ pub enum StopReason {
     StepTooSmall,
     /// A value is not finite: the run left the domain where the model is defined.
     NotFinite,
+    /// The state contradicts the equations where the mass matrix is singular: rates that would lead on do not exist.
+    Inconsistent,
     /// Transitions pile up in time (or a step takes no time at all).
     Zeno,
 }

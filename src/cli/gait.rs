@@ -54,6 +54,7 @@ impl Report<'_> {
                 StopReason::StepLimit => "step_limit",
                 StopReason::StepTooSmall => "step_too_small",
                 StopReason::NotFinite => "not_finite",
+                StopReason::Inconsistent => "inconsistent",
                 StopReason::Zeno => "zeno",
             },
         }

@@ -2,8 +2,8 @@
 //!
 //! So the guard that has just fired neither fires again at once nor is lost.
 
-use super::frame::Frame;
-use super::surface::{Reading, Side, Surface};
+use super::surface::{Reading, Side, Surface, value};
+use crate::integrate::{Frame, Method, short_step};
 use crate::model::{Direction, Model};
 
 /// How far ahead, as fractions of a typical step, the function is looked at when value and rate are both zero.
@@ -46,18 +46,18 @@ pub(crate) fn ends_at_once(start: Start, direction: Direction) -> bool {
     start.tangent && fires
 }
 
-/// [`arm`] for a surface of a run that stands at (`tau`, `x`).
-pub(crate) fn start_side<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+/// [`arm`] for a surface of a run that stands at (`tau`, `x`) with rate `k`.
+pub(crate) fn start_side<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
     surface: Surface,
     reading: &Reading,
     tau: f64,
-    x: &[f64; N],
+    (x, k): (&[f64; N], &[f64; N]),
     typical: f64,
 ) -> Start {
     let ahead = |d: f64| {
-        let later = frame.short_step::<M, N, Q>(tau, x, &frame.flow::<M, N, Q>(tau, x), d);
-        frame.read::<M, N, Q>(surface, tau + d, &later).value
+        let later = short_step::<X, M, N, P, Q>(frame, tau, (x, k), d);
+        value::<M, N, P, Q>(surface, &later, &frame.env(tau + d))
     };
     arm(reading, typical, &ahead)
 }

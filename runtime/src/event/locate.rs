@@ -7,20 +7,20 @@ use super::surface::{Reading, Side};
 const ITERATIONS: usize = 60;
 
 /// The time h after the start of the step at which the surface is crossed, leaving side `from`, between `low` and
-/// `high`; `guess` is from the dense output; `reading(h)` reads the surface after `h`. Also says how many readings it took.
+/// `high`; `guess` is from the dense output; `reading(h)` reads the surface after `h`.
 pub(crate) fn locate(
-    reading: &impl Fn(f64) -> Reading,
+    reading: &mut impl FnMut(f64) -> Reading,
     tau: f64,
     (low, high): (f64, f64),
     guess: f64,
     from: Side,
-) -> (f64, usize) {
+) -> f64 {
     let (mut low, mut high, mut h) = (low, high, guess);
     let smallest = 2.0 * f64::EPSILON * (tau.abs() + high);
-    for count in 1..=ITERATIONS {
+    for _ in 0..ITERATIONS {
         let at = reading(h);
         if at.value == 0.0 || high - low <= smallest {
-            return (h, count);
+            return h;
         }
         if from.sign() * at.value > 0.0 {
             low = low.max(h);
@@ -29,11 +29,11 @@ pub(crate) fn locate(
         }
         let newton = h - at.value / at.rate;
         if (newton - h).abs() <= smallest {
-            return (newton, count);
+            return newton;
         }
         // A bracket from the dense output may miss by its error: Newton may leave it by as much, but no further.
         let slack = 1e-6 * (high - low);
         h = if newton > low - slack && newton < high + slack { newton } else { 0.5 * (low + high) };
     }
-    (h, ITERATIONS)
+    h
 }

@@ -6,14 +6,12 @@
 
 mod arming;
 mod crossing;
-mod frame;
 mod locate;
 mod root;
 pub(crate) mod selectors;
 mod surface;
 mod watch;
 
-pub(crate) use frame::{Frame, StateStep};
 pub(crate) use root::root;
-pub(crate) use surface::{Side, Surface, gradient, read};
+pub(crate) use surface::{Side, Surface, gradient, read, value};
 pub(crate) use watch::{Found, Watched, first_events, watch};

@@ -4,8 +4,8 @@
 //! one more of a chain, so as many rounds as there are switches suffice unless they contradict each other.
 
 use super::arming::start_side;
-use super::frame::Frame;
-use super::surface::{Side, Surface};
+use super::surface::{Side, Surface, read};
+use crate::integrate::{Frame, Method};
 use crate::model::Model;
 
 /// Sets the selectors of `switches` by the plain sign of their functions.
@@ -20,20 +20,22 @@ pub(crate) fn by_sign<M: Model<N, P, Q>, const N: usize, const P: usize, const Q
     branch
 }
 
-/// Sets the selectors of `switches` by the first of value and derivatives that is not zero.
-pub(crate) fn by_derivative<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+/// Sets the selectors of `switches` by the first of value and derivatives that is not zero; `k` is the rate as far as it is
+/// known.
+pub(crate) fn by_derivative<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
     switches: &[usize],
     tau: f64,
-    x: &[f64; N],
+    (x, k): (&[f64; N], &[f64; N]),
     typical: f64,
 ) -> Vec<bool> {
     let mut branch = frame.branch.to_vec();
     settle(&mut branch, switches, |branch, i| {
         let frame = Frame { branch, ..frame };
         let surface = Surface::Switch(i);
-        let reading = frame.read::<M, N, Q>(surface, tau, x);
-        start_side::<M, N, P, Q>(frame, surface, &reading, tau, x, typical).side != Side::Negative
+        let k = X::rate::<M, N, P, Q>(frame, tau, x, k);
+        let reading = read::<M, N, P, Q>(surface, x, &k, &frame.env(tau));
+        start_side::<X, M, N, P, Q>(frame, surface, &reading, tau, (x, &k), typical).side != Side::Negative
     });
     branch
 }

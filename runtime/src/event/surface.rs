@@ -92,7 +92,20 @@ pub(crate) fn gradient<M: Model<N, P, Q>, const N: usize, const P: usize, const 
     }
 }
 
-/// Reads a surface where the flow is `flow`.
+/// The value of a surface's function.
+#[inline]
+pub(crate) fn value<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    surface: Surface,
+    x: &[f64; N],
+    env: &Env<'_, f64, P>,
+) -> f64 {
+    match surface {
+        Surface::Transition(i) => M::guard(i, x, env),
+        Surface::Switch(i) => M::switch(i, x, env),
+    }
+}
+
+/// Reads a surface where the rate is `flow`.
 #[inline]
 pub(crate) fn read<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     surface: Surface,

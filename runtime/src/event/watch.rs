@@ -2,11 +2,10 @@
 
 use super::arming::{ends_at_once, start_side};
 use super::crossing::{Passage, passage, suspicious};
-use super::frame::{Frame, StateStep};
 use super::locate::locate;
 use super::surface::{Reading, Side, Surface, read};
+use crate::integrate::{Frame, Method, StateStep, restep};
 use crate::model::{Direction, Model};
-use crate::ode::Dense;
 use crate::return_map::{Statistics, StopReason, Warning};
 
 /// A surface that is watched in the current segment.
@@ -65,13 +64,13 @@ impl Watched {
     }
 }
 
-/// Starts to watch the guards of the mode of `frame` and its `switches`, at (`tau`, `x`). After a switch, `previous` is what
+/// Starts to watch the guards of the mode of `frame` and its `switches`, at (`tau`, `x`) with rate `k`. After a switch, `previous` is what
 /// was watched before it: a guard that is zero keeps its side then.
-pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+pub(crate) fn watch<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
     switches: &[usize],
     tau: f64,
-    x: &[f64; N],
+    (x, k): (&[f64; N], &[f64; N]),
     typical: f64,
     previous: &[Watched],
 ) -> Result<Vec<Watched>, StopReason> {
@@ -80,12 +79,12 @@ pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     let switches = switches.iter().map(|i| (Surface::Switch(*i), Direction::Either));
     let mut watched = Vec::new();
     for (surface, direction) in guards.chain(switches) {
-        let reading = frame.read::<M, N, Q>(surface, tau, x);
+        let reading = read::<M, N, P, Q>(surface, x, k, &frame.env(tau));
         if !reading.value.is_finite() {
             return Err(StopReason::NotFinite);
         }
         let kept = previous.iter().find(|w| w.surface == surface);
-        let start = start_side::<M, N, P, Q>(frame, surface, &reading, tau, x, typical);
+        let start = start_side::<X, M, N, P, Q>(frame, surface, &reading, tau, (x, k), typical);
         let side = match (surface, kept) {
             _ if reading.value.abs() > reading.rounding => start.side,
             (Surface::Switch(i), _) if frame.branch.get(i) == Some(&true) => Side::Positive,
@@ -106,28 +105,28 @@ pub(crate) fn watch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
 /// The events that come first in a step, at the same time to rounding: transitions in the order of the spec, then
 /// switches. Empty when there is none after all.
 #[inline(never)]
-pub(crate) fn first_events<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<N>,
+    step: &StateStep<X, N>,
     watched: &[Watched],
     warnings: &mut Vec<Warning>,
+    work: &mut X::Workspace,
     statistics: &mut Statistics,
 ) -> Vec<Found> {
-    let dense = Dense::new(step, &|tau, x| frame.flow::<M, N, Q>(tau, x));
-    statistics.evaluations += 3;
+    let dense = X::dense::<M, N, P, Q>(frame, step, &mut statistics.evaluations);
     let mut found = Vec::new();
     for (i, w) in watched.iter().enumerate().filter(|(_, w)| w.suspicious(step.h)) {
         let on_dense = |u: f64| {
-            let x = if w.clock_only() { step.start.x } else { dense.at(u) };
-            frame.read::<M, N, Q>(w.surface, step.tau + u * step.h, &x)
+            let at = X::point::<M, N, P, Q>(frame, step, &dense, u);
+            read::<M, N, P, Q>(w.surface, &at.x, &at.k, &frame.env(step.tau + u * step.h))
         };
         let largest = w.largest.max(w.end.value.abs());
         let ends = (&w.start, &w.end, step.h, w.dip);
         match passage(w.side, w.direction, ends, largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
             Some(Passage::Crossing { low, high, at, from }) => {
                 let bracket = (low * step.h, high * step.h);
-                let (h, last) = exact::<M, N, P, Q>(frame, step, w, bracket, at * step.h, from, statistics);
-                if !enabled::<M, N, P, Q>(frame, step, w.surface, h) {
+                let (h, last) = exact::<X, M, N, P, Q>(frame, step, w, bracket, (at * step.h, from), work, statistics);
+                if !enabled::<X, M, N, P, Q>(frame, step, w.surface, h, work, statistics) {
                     continue;
                 }
                 let tau = step.tau + h;
@@ -152,41 +151,40 @@ pub(crate) fn first_events<M: Model<N, P, Q>, const N: usize, const P: usize, co
 }
 
 /// The time of a crossing after the start of the step, exact to rounding, and the surface's reading near it.
-fn exact<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+fn exact<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<N>,
+    step: &StateStep<X, N>,
     watched: &Watched,
     bracket: (f64, f64),
-    guess: f64,
-    from: Side,
+    (guess, from): (f64, Side),
+    work: &mut X::Workspace,
     statistics: &mut Statistics,
 ) -> (f64, Reading) {
-    let last = core::cell::Cell::new(watched.end);
-    let reading = |h: f64| {
-        let tau = step.tau + h;
-        let x = if watched.clock_only() { step.start.x } else { frame.restep::<M, N, Q>(step, h) };
-        let reading = read::<M, N, P, Q>(watched.surface, &x, &frame.flow::<M, N, Q>(tau, &x), &frame.env(tau));
-        last.set(reading);
-        reading
+    let mut last = watched.end;
+    let mut reading = |h: f64| {
+        let at = (step.start.x, step.start_rates.x);
+        let evaluations = &mut statistics.evaluations;
+        let (x, k) = if watched.clock_only() { at } else { restep::<X, M, N, P, Q>(frame, step, h, work, evaluations) };
+        last = read::<M, N, P, Q>(watched.surface, &x, &k, &frame.env(step.tau + h));
+        last
     };
-    let (h, count) = locate(&reading, step.tau, bracket, guess, from);
-    if !watched.clock_only() {
-        statistics.evaluations += 12 * count;
-    }
-    (h, last.get())
+    let h = locate(&mut reading, step.tau, bracket, guess, from);
+    (h, last)
 }
 
 /// Whether a transition's `when` holds after `h`.
-fn enabled<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+fn enabled<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<N>,
+    step: &StateStep<X, N>,
     surface: Surface,
     h: f64,
+    work: &mut X::Workspace,
+    statistics: &mut Statistics,
 ) -> bool {
     match surface {
         Surface::Switch(_) => true,
         Surface::Transition(i) => {
-            let x = frame.restep::<M, N, Q>(step, h);
+            let (x, _) = restep::<X, M, N, P, Q>(frame, step, h, work, &mut statistics.evaluations);
             M::when(i, &x, &frame.env(step.tau + h)) >= 0.0
         }
     }

@@ -1,34 +1,29 @@
 //! Largest and smallest values of observables over a map, exact in value and derivative.
 //!
-//! Candidates are the ends of segments and the places inside steps where the observable's rate o_x f + o_tau + o_t
+//! Candidates are the ends of segments and the places inside steps where the observable's rate o_x k + o_k k' + o_tau + o_t
 //! changes sign. The latter are found on the dense output and then made exact: one Newton step on the true rate, and a
 //! re-step of state and variations to that place.
 
 use super::functionals::{Variation, Varied, along, observe};
 use super::passing::Place;
-use super::rates::Rates;
 use super::resolution::PLACES;
 use super::run::Run;
-use super::segment::state_step;
-use crate::event::{Frame, StateStep, root};
+use super::segment::Segment;
+use crate::event::root;
+use crate::integrate::{Carried, Frame, Method, Point, Purpose, StateStep, StepOf, restep, state_step};
 use crate::model::Model;
-use crate::ode::Dense;
 use crate::sensitivity::dot;
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
+impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'_, X, M, R, N, P, Q, W, C>
 where
+    X: Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
-    /// Value and rate of an observable.
-    fn slope(&self, observable: usize, tau: f64, x: &[f64; N], flow: &[f64; N]) -> (f64, f64) {
-        let g = M::observable_gradient(observable, self.segment.mode, x, flow, &self.segment.env(tau));
-        (g.value, dot(&g.dx, flow) + g.dtau + g.dt)
-    }
-
     /// Offers the place where the run is, an end of a segment.
     pub(crate) fn observe_boundary(&mut self, place: &Place<N, C>) {
-        let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.stages[0].x), self.step.tau);
+        let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.start_rates.x), self.step.tau);
         for extremum in &mut self.functionals.extrema {
             let candidate =
                 observe::<M, N, P, Q, C>(extremum.observable, segment.mode, x, &segment.env(tau), |g, c| {
@@ -47,53 +42,82 @@ where
         }
     }
 
-    /// Offers the start of a segment and starts to look for extrema inside its steps.
-    pub(crate) fn begin_extrema(&mut self, place: &Place<N, C>) {
-        self.observe_boundary(place);
-        for e in 0..self.functionals.extrema.len() {
-            let extremum = self.functionals.extrema[e];
-            let (value, rate) =
-                self.slope(extremum.observable, self.step.tau, &self.step.start.x, &self.step.stages[0].x);
-            self.functionals.extrema[e].last = (extremum.sense * value, extremum.sense * rate);
-        }
-    }
-
     /// Looks for extrema inside the current step, between its ends and the places of [`PLACES`].
     pub(crate) fn examine_extrema(&mut self) {
         if self.functionals.extrema.is_empty() {
             return;
         }
-        let step = state_step(&self.step);
+        let (frame, step) = (self.segment.frame(), state_step::<X, N, W, C>(&self.step));
+        let start = Point { x: step.start.x, k: step.start_rates.x, bend: X::bend(&step, 0.0) };
+        let end = Point { x: step.end.x, k: step.end_rates.x, bend: X::bend(&step, 1.0) };
         for e in 0..self.functionals.extrema.len() {
             let extremum = self.functionals.extrema[e];
             let peak = Peak { observable: extremum.observable, sense: extremum.sense };
-            let end_tau = self.step.tau + self.step.h;
-            let (value, rate) = self.slope(peak.observable, end_tau, &self.step.end.x, &self.step.end_rates.x);
-            let end = (peak.sense * value, peak.sense * rate);
-            self.functionals.extrema[e].last = end;
+            let ends = (
+                peak.read::<M, N, P, Q>(frame, step.tau, &start),
+                peak.read::<M, N, P, Q>(frame, step.tau + step.h, &end),
+            );
             let best = extremum.best.map_or(f64::NEG_INFINITY, |best| peak.sense * best.value);
-            let better_than = best - 1e-6 * (extremum.last.0.abs() + end.0.abs());
-            let found = peak.find::<M, N, P, Q>(self.segment.frame(), &step, (extremum.last, end), better_than);
-            self.statistics.evaluations += 3 + PLACES.len();
-            if let Some(h) = found {
-                let candidate = self.observe_inside(peak.observable, h);
+            let better_than = best - 1e-6 * (ends.0.0.abs() + ends.1.0.abs());
+            let (work, evaluations) = (&mut self.work, &mut self.statistics.evaluations);
+            if let Some(h) = peak.find::<X, M, N, P, Q>(frame, &step, ends, better_than, work, evaluations) {
+                let candidate = Self::observe_inside(&self.segment, &self.step, peak.observable, h, work, evaluations);
                 self.functionals.extrema[e].offer(candidate);
-                self.statistics.evaluations += 23;
             }
         }
     }
 
     /// An observable with its derivatives `h` after the start of the step, where it is extremal: its place does not
     /// matter to first order.
-    fn observe_inside(&self, observable: usize, h: f64) -> Varied<C> {
-        let (segment, tau) = (&self.segment, self.step.tau + h);
-        let mut k = self.step.stages;
-        let y = Self::attempt(segment, self.step.tau, h, &self.step.start, &mut k);
-        let rate = self.segment.frame().flow::<M, N, Q>(tau, &y.x);
-        observe::<M, N, P, Q, C>(observable, segment.mode, (&y.x, &rate), &segment.env(tau), |g, c| {
-            along(g, Variation { dx: &y.dx[c], dk: &[0.0; N], dp: &segment.dp[c], dtau: 0.0, dt: segment.dstart[c] })
+    fn observe_inside(
+        segment: &Segment<'_, P, C>,
+        step: &StepOf<X, N, W, C>,
+        observable: usize,
+        h: f64,
+        work: &mut X::Workspace,
+        evaluations: &mut usize,
+    ) -> Varied<C> {
+        let (held, mut y) = (segment.held(), *step);
+        let tolerance = segment.tolerance;
+        X::attempt::<M, R, N, P, Q, W, C>(&held, &mut y, h, Purpose::Land, tolerance, work, evaluations);
+        X::finish::<M, R, N, P, Q, W, C>(&held, &mut y, evaluations);
+        let (at, env) = ((&y.end.x, &y.end_rates.x), segment.env(step.tau + h));
+        observe::<M, N, P, Q, C>(observable, segment.mode, at, &env, |g, c| {
+            let (dx, dk) = (&y.end.dx[c], &y.end_rates.dx[c]);
+            along(g, Variation { dx, dk, dp: &segment.dp[c], dtau: 0.0, dt: segment.dstart[c] })
         })
     }
+}
+
+/// An observable at a point of a solution.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slope {
+    /// Its value.
+    pub(crate) value: f64,
+    /// Its time derivative.
+    pub(crate) rate: f64,
+    /// What rounding makes of the value.
+    pub(crate) rounding: f64,
+}
+
+/// Value and rate o_x k + o_k k' + o_tau + o_t of an observable.
+pub(crate) fn slope<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    observable: usize,
+    frame: Frame<'_, P>,
+    tau: f64,
+    at: &Point<N>,
+) -> Slope {
+    let g = M::observable_gradient(observable, frame.mode, &at.x, &at.k, &frame.env(tau));
+    let (mut size, mut rate) = (g.value.abs(), dot(&g.dx, &at.k) + g.dtau + g.dt);
+    for i in 0..N {
+        size += (g.dx[i] * at.x[i]).abs();
+        // A rate that does not matter need not be known.
+        if g.dk[i] != 0.0 {
+            size += (g.dk[i] * at.k[i]).abs();
+            rate += g.dk[i] * at.bend[i];
+        }
+    }
+    Slope { value: g.value, rate, rounding: 64.0 * f64::EPSILON * size }
 }
 
 /// What is largest: `sense` times an observable.
@@ -107,24 +131,32 @@ struct Peak {
 type Knot = (f64, (f64, f64));
 
 impl Peak {
+    /// `sense` times value and rate.
+    fn read<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+        &self,
+        frame: Frame<'_, P>,
+        tau: f64,
+        at: &Point<N>,
+    ) -> (f64, f64) {
+        let slope = slope::<M, N, P, Q>(self.observable, frame, tau, at);
+        (self.sense * slope.value, self.sense * slope.rate)
+    }
+
     /// The time after the start of the step of the largest interior maximum, from the dense output and one Newton step
     /// on the true rate; `None` when there is none that is larger than `better_than`.
     #[inline(never)]
-    fn find<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    fn find<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
         &self,
         frame: Frame<'_, P>,
-        step: &StateStep<N>,
+        step: &StateStep<X, N>,
         (start, end): ((f64, f64), (f64, f64)),
         better_than: f64,
+        work: &mut X::Workspace,
+        evaluations: &mut usize,
     ) -> Option<f64> {
-        let flow = |tau: f64, x: &[f64; N]| frame.flow::<M, N, Q>(tau, x);
-        let dense: Dense<N> = Dense::new(step, &flow);
-        let read = |tau: f64, x: &[f64; N]| {
-            let rate = flow(tau, x);
-            let g = M::observable_gradient(self.observable, frame.mode, x, &rate, &frame.env(tau));
-            (self.sense * g.value, self.sense * (dot(&g.dx, &rate) + g.dtau + g.dt))
-        };
-        let inside = |u: f64| read(step.tau + u * step.h, &dense.at(u));
+        let dense = X::dense::<M, N, P, Q>(frame, step, evaluations);
+        let place = |u: f64| X::point::<M, N, P, Q>(frame, step, &dense, u);
+        let inside = |u: f64| self.read::<M, N, P, Q>(frame, step.tau + u * step.h, &place(u));
         let rate = |u: f64| inside(u).1;
         let mut knots: [Knot; PLACES.len() + 2] = [(0.0, start); PLACES.len() + 2];
         for (knot, u) in knots.iter_mut().skip(1).zip(PLACES) {
@@ -141,7 +173,9 @@ impl Peak {
         let near = (1e-4_f64).min(0.5 * u.min(1.0 - u)).max(1e-9);
         let bend = (rate(u + near) - rate(u - near)) / (2.0 * near * step.h);
         let h = u * step.h;
-        let correction = read(step.tau + h, &frame.restep::<M, N, Q>(step, h)).1 / bend;
+        let (x, k) = restep::<X, M, N, P, Q>(frame, step, h, work, evaluations);
+        let exact = Point { x, k, bend: place(u).bend };
+        let correction = self.read::<M, N, P, Q>(frame, step.tau + h, &exact).1 / bend;
         // The correction is of the size of the dense output's error; anything else means that there is no bend.
         Some(if correction.abs() <= 1e-3 * step.h { h - correction } else { h })
     }

@@ -55,8 +55,6 @@ pub(crate) struct Extremum<const C: usize> {
     pub(crate) observable: usize,
     /// 1 for a maximum, -1 for a minimum.
     pub(crate) sense: f64,
-    /// `sense` times value and time derivative of the observable where the current step starts.
-    pub(crate) last: (f64, f64),
     /// The best so far, not multiplied with `sense`.
     pub(crate) best: Option<Varied<C>>,
 }
@@ -92,7 +90,7 @@ impl<const C: usize> Functionals<C> {
                 Functional::Minimum(o) => (o, -1.0),
                 _ => continue,
             };
-            extrema.push(Extremum { functional, observable, sense, last: (0.0, 0.0), best: None });
+            extrema.push(Extremum { functional, observable, sense, best: None });
         }
         Self { extrema, starts: Vec::new(), ends: Vec::new() }
     }

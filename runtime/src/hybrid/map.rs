@@ -4,8 +4,8 @@
 
 use super::functionals::{Variation, Varied, along, observe};
 use super::passing::Place;
-use super::rates::Rates;
 use super::run::Run;
+use crate::integrate::{Carried, Method};
 use crate::model::Model;
 use crate::return_map::{MapRequest, StopReason};
 
@@ -18,10 +18,12 @@ pub(crate) struct Coordinates<const N: usize, const C: usize> {
     pub(crate) dz: [[f64; N]; C],
 }
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
+impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'_, X, M, R, N, P, Q, W, C>
 where
+    X: Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
     /// Runs the whole map from the section coordinates `at`; returns where it ends and the full state at its start.
     pub(crate) fn map(
@@ -52,10 +54,11 @@ where
     /// Starts the segment that follows the start of a map or a transition.
     fn begin(&mut self, record: bool) -> Result<(), StopReason> {
         self.enter(None)?;
-        let place = Place { dx: self.step.start.dx, dk: [[0.0; N]; C], dtau: [0.0; C], dt: self.segment.dstart };
-        self.begin_extrema(&place);
+        let place =
+            Place { dx: self.step.start.dx, dk: self.step.start_rates.dx, dtau: [0.0; C], dt: self.segment.dstart };
+        self.observe_boundary(&place);
         if record {
-            let (segment, x) = (&self.segment, (&self.step.start.x, &self.step.stages[0].x));
+            let (segment, x) = (&self.segment, (&self.step.start.x, &self.step.start_rates.x));
             self.functionals.record_start(M::INFO, |o| {
                 observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(0.0), |g, c| {
                     along(
@@ -83,7 +86,7 @@ where
                 self.move_on();
                 continue;
             };
-            self.shorten(first.h);
+            self.shorten(first.h)?;
             self.examine_extrema();
             let last = record && self.fires(first.watched, section);
             match self.pass(&found, last)? {

@@ -7,19 +7,21 @@ mod extremum;
 mod functionals;
 mod map;
 mod passing;
-mod rates;
 mod request;
 mod resolution;
 mod run;
 mod segment;
 
+use crate::integrate;
+use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
 use crate::model::{Model, ModelInfo};
-use crate::return_map::{MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop, StopReason};
+use crate::return_map::{
+    AlsoZeroAt, MapOutcome, MapRequest, MapResult, Method, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
+};
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::Coordinates;
 use nalgebra::{DMatrix, DVector};
-use rates::{Bare, Rates, Whole};
 use run::Run;
 
 /// The largest numbers of columns in one pass. Each width is compiled for each model, so there are few.
@@ -41,7 +43,7 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         Self(PhantomData)
     }
 
-    fn evaluate_columns(&self, request: &MapRequest<'_>, section: usize) -> Result<MapResult, Stop> {
+    fn evaluate_columns(&self, request: &MapRequest<'_>, section: usize, method: Method) -> Result<MapResult, Failure> {
         let coordinates = M::INFO.coordinates.len();
         let (count, chosen): (usize, &[usize]) = match request.sensitivity {
             Sensitivity::None => (0, &[]),
@@ -54,7 +56,11 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         loop {
             let width = (count - first).min(if bare { WIDEST_BARE } else { WIDEST_WHOLE });
             let columns = Columns { first, width, coordinates, chosen, bare };
-            let part = dispatch::<M, N, P, Q>(request, section, columns)?;
+            let part = match method {
+                Method::Explicit | Method::Automatic => explicit::<M, N, P, Q>(request, section, columns),
+                Method::Radau5 => radau::<M, N, P, Q, 5>(request, section, columns),
+                Method::Radau3 => radau::<M, N, P, Q, 3>(request, section, columns),
+            }?;
             result = Some(match result {
                 None => part,
                 Some(all) => append(all, part),
@@ -64,7 +70,7 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
                 break;
             }
         }
-        result.ok_or(Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() })
+        result.ok_or_else(Failure::impossible)
     }
 }
 
@@ -75,9 +81,19 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMa
 
     fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError> {
         let section = request::check(M::INFO, request)?;
-        Ok(match self.evaluate_columns(request, section) {
+        let asked = request.accuracy.method;
+        let first = match asked {
+            Method::Automatic if M::INFO.explicit => Method::Explicit,
+            Method::Automatic => Method::Radau5,
+            method => method,
+        };
+        let mut result = self.evaluate_columns(request, section, first);
+        if asked == Method::Automatic && result.as_ref().is_err_and(|failure| failure.stiff) {
+            result = self.evaluate_columns(request, section, Method::Radau5);
+        }
+        Ok(match result {
             Ok(result) => MapOutcome::Completed(Box::new(result)),
-            Err(stop) => MapOutcome::Stopped(stop),
+            Err(failure) => MapOutcome::Stopped(failure.stop),
         })
     }
 }
@@ -92,30 +108,70 @@ struct Columns<'a> {
     bare: bool,
 }
 
-fn dispatch<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
-    request: &MapRequest<'_>,
-    section: usize,
-    columns: Columns<'_>,
-) -> Result<MapResult, Stop> {
-    macro_rules! widths {
-        ($kind:ty, $w:expr; $($c:literal),+) => {
-            match columns.width {
-                $(width if width <= $c => pass::<M, $kind, N, P, Q, { $w }, $c>(request, section, columns),)+
-                _ => Err(Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() }),
-            }
-        };
-    }
-    if columns.bare { widths!(Bare, 0; 0, 1, 2, 4) } else { widths!(Whole, Q; 0, 2, 4, 8) }
+/// A pass that did not reach the section, and whether stiffness is to blame.
+struct Failure {
+    stop: Stop,
+    stiff: bool,
 }
 
-fn pass<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
+impl Failure {
+    /// For widths that are never asked for.
+    fn impossible() -> Self {
+        Self { stop: Stop { reason: StopReason::NotFinite, time: 0.0, state: Vec::new() }, stiff: false }
+    }
+}
+
+macro_rules! widths {
+    ($method:ty, $kind:ty, $w:expr, $arguments:expr; $($c:literal),+) => {{
+        let (request, section, columns) = $arguments;
+        match columns.width {
+            $(width if width <= $c => pass::<$method, M, $kind, N, P, Q, { $w }, $c>(request, section, columns),)+
+            _ => Err(Failure::impossible()),
+        }
+    }};
+}
+
+fn explicit<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: usize,
     columns: Columns<'_>,
-) -> Result<MapResult, Stop>
+) -> Result<MapResult, Failure> {
+    // Nothing of it is compiled for models that have no explicit flow.
+    if const { !M::INFO.explicit } {
+        return Err(Failure::impossible());
+    }
+    if columns.bare {
+        widths!(Explicit, Bare, 0, (request, section, columns); 0, 1, 2, 4)
+    } else {
+        widths!(Explicit, Whole, Q, (request, section, columns); 0, 2, 4, 8)
+    }
+}
+
+/// One width for each kind: the method solves for the columns in use only, and compiles slowly.
+fn radau<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const S: usize>(
+    request: &MapRequest<'_>,
+    section: usize,
+    columns: Columns<'_>,
+) -> Result<MapResult, Failure>
 where
+    Radau<S>: integrate::Method,
+{
+    if columns.bare {
+        widths!(Radau<S>, Bare, 0, (request, section, columns); 4)
+    } else {
+        widths!(Radau<S>, Whole, Q, (request, section, columns); 8)
+    }
+}
+
+fn pass<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
+    request: &MapRequest<'_>,
+    section: usize,
+    columns: Columns<'_>,
+) -> Result<MapResult, Failure>
+where
+    X: integrate::Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
     let mut p = [0.0; P];
     p.copy_from_slice(request.parameters);
@@ -131,28 +187,33 @@ where
         }
     }
     let functionals = Functionals::new(M::INFO, request.measures);
-    let mut run = Run::<M, R, N, P, Q, W, C>::new(request.accuracy, &p, dp, functionals);
+    let mut run = Run::<X, M, R, N, P, Q, W, C>::new(request.accuracy, &p, (dp, columns.width), functionals);
     match run.map(request, section, at) {
         Ok((end, state)) => Ok(gather(&run, request, columns, &end, &state)),
-        Err(reason) => Err(Stop { reason, time: run.time(), state: run.step.start.x.to_vec() }),
+        Err(reason) => {
+            let stop = Stop { reason, time: run.time(), state: run.step.start.x.to_vec() };
+            Err(Failure { stop, stiff: run.stiff() })
+        }
     }
 }
 
-fn gather<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
-    run: &Run<'_, M, R, N, P, Q, W, C>,
+fn gather<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
+    run: &Run<'_, X, M, R, N, P, Q, W, C>,
     request: &MapRequest<'_>,
     columns: Columns<'_>,
     end: &Coordinates<N, C>,
     state: &[f64; N],
 ) -> MapResult
 where
+    X: integrate::Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
     let (d, width) = (columns.coordinates, columns.width.min(C));
     let duration = run.duration();
+    let functionals = if request.measures { run.functionals() } else { Vec::new() };
     let (measures, measures_jacobian) = if request.measures {
-        measures::<M, N, P, Q, C>(&run.functionals(), &run.segment.dp, run.segment.p, width)
+        measures::<M, N, P, Q, C>(&functionals, &run.segment.dp, run.segment.p, width)
     } else {
         (DVector::zeros(0), DMatrix::zeros(0, width))
     };
@@ -165,11 +226,25 @@ where
         measures,
         measures_jacobian,
         events: run.events.clone(),
-        also_zero: Vec::new(),
-        method: crate::return_map::Method::Explicit,
+        also_zero: also_zero(M::INFO, &functionals),
+        method: X::KIND,
         statistics: run.statistics,
         warnings: run.warnings.clone(),
     }
+}
+
+/// The functions that vanish with a guard, from their functionals.
+fn also_zero<const C: usize>(info: &ModelInfo, functionals: &[Varied<C>]) -> Vec<AlsoZeroAt> {
+    let value = |i: usize| functionals.get(i).map(|f| f.value);
+    let listed = info.transitions.iter().enumerate().flat_map(|(transition, t)| {
+        t.also_zero.iter().enumerate().map(move |(index, listed)| (transition, index, listed))
+    });
+    listed
+        .filter_map(|(transition, index, listed)| {
+            let (start, end, rate) = (value(listed.start)?, value(listed.end)?, value(listed.rate)?);
+            Some(AlsoZeroAt { transition, index, start, end, rate })
+        })
+        .collect()
 }
 
 /// Measures and their derivatives along the columns, by the chain rule.

@@ -1,9 +1,9 @@
 //! Passing an event: a switch (the flow changes, the state does not) or a transition (reset, new mode, clock at 0).
 
 use super::functionals::{Variation, along, observe};
-use super::rates::Rates;
 use super::run::Run;
 use crate::event::{Found, Side, Surface, gradient};
+use crate::integrate::{Carried, Method};
 use crate::model::Model;
 use crate::return_map::{Event, StopReason, Warning};
 use crate::sensitivity::{Clock, Crossing};
@@ -24,10 +24,12 @@ pub(crate) struct Place<const N: usize, const C: usize> {
     pub(crate) dt: [f64; C],
 }
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
+impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'_, X, M, R, N, P, Q, W, C>
 where
+    X: Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
     /// Passes the first of `found`, at the end of the current step. The transition that was made, if any.
     pub(crate) fn pass(&mut self, found: &[Found], last: bool) -> Result<Option<usize>, StopReason> {
@@ -70,14 +72,17 @@ where
 
     /// Moves to the end of the step and says how that place depends on the columns.
     fn place(&mut self, crossing: &Crossing<'_, N, P>) -> Place<N, C> {
+        let bend = X::bend(&self.step, 1.0);
         self.move_on();
-        let mut place = Place { dx: self.step.start.dx, dk: [[0.0; N]; C], dtau: [0.0; C], dt: self.segment.dstart };
+        let y = &self.step;
+        let mut place = Place { dx: y.start.dx, dk: y.start_rates.dx, dtau: [0.0; C], dt: self.segment.dstart };
         for c in 0..C {
             let dtau = crossing.time_derivative(&place.dx[c], &self.segment.dp[c], self.segment.dstart[c]);
             place.dtau[c] = dtau;
             place.dt[c] += dtau;
             for i in 0..N {
                 place.dx[c][i] += crossing.before[i] * dtau;
+                place.dk[c][i] += bend[i] * dtau;
             }
         }
         place
@@ -138,7 +143,7 @@ where
             }
         }
         self.enter(Some(switches))?;
-        let after = self.step.stages[0];
+        let after = self.step.start_rates;
         let crossing = Crossing { guard: &guard, reset: None, before, clock: Clock::RunsOn(after.x) };
         for c in 0..C {
             self.step.start.dx[c] = crossing.pass(&dx[c], &self.segment.dp[c], self.segment.dstart[c], place.dtau[c]);
@@ -147,10 +152,9 @@ where
             }
         }
         if C > 0 {
-            self.step.stages[0] = R::rates(&self.segment, self.step.tau, &self.step.start);
-            self.statistics.evaluations += 1;
+            self.begin_rates()?;
         }
-        self.begin_extrema(&place);
+        self.observe_boundary(&place);
         self.check_finite()
     }
 
@@ -163,7 +167,7 @@ where
 
     /// The `End` functionals, where the run is, just before a reset.
     fn record_end(&mut self, place: &Place<N, C>) {
-        let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.stages[0].x), self.step.tau);
+        let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.start_rates.x), self.step.tau);
         self.functionals.record_end(M::INFO, |o| {
             observe::<M, N, P, Q, C>(o, segment.mode, x, &segment.env(tau), |g, c| {
                 along(

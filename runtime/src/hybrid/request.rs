@@ -1,7 +1,7 @@
 //! Checks of a request before any work is done.
 
 use crate::model::ModelInfo;
-use crate::return_map::{MapRequest, RequestError, Sensitivity};
+use crate::return_map::{MapRequest, Method, RequestError, Sensitivity};
 
 /// Whether the request fits the model; the section's transition.
 pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Result<usize, RequestError> {
@@ -16,6 +16,9 @@ pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Resul
         return Err(RequestError::Length { what, expected: info.parameters.len(), got: worst });
     }
     accuracy(request)?;
+    if request.accuracy.method == Method::Explicit && !info.explicit {
+        return Err(RequestError::NoExplicitFlow(info.name));
+    }
     Ok(section)
 }
 

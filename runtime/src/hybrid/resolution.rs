@@ -4,13 +4,11 @@
 //! which a guard goes through zero and back. A function counts as resolved where, at a few places inside the step, it
 //! is close to the cubic through its values and rates at both ends.
 
-use super::rates::Rates;
+use super::extremum::slope;
 use super::run::Run;
-use super::segment::state_step;
-use crate::event::{Frame, Surface};
+use crate::event::value;
+use crate::integrate::{Carried, Frame, Method, Point, state_step};
 use crate::model::Model;
-use crate::ode::Dense;
-use crate::sensitivity::dot;
 
 /// Places inside a step, as fractions of it; uneven, so that a periodic function does not hide behind them.
 pub(crate) const PLACES: [f64; 4] = [0.13, 0.37, 0.61, 0.87];
@@ -19,39 +17,46 @@ const MISFIT: f64 = 0.1;
 /// A function that stays this many ranges away from zero needs no closer look: it has no event nearby.
 const FAR: f64 = 2.0;
 
-impl<M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> Run<'_, M, R, N, P, Q, W, C>
+impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'_, X, M, R, N, P, Q, W, C>
 where
+    X: Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
     /// Whether all surfaces and observables are resolved in the current step; notes where a surface is on its other
     /// side inside the step.
     pub(crate) fn resolved(&mut self) -> bool {
-        let of_clock = self.functionals.extrema.is_empty() && self.watched.iter().all(|w| w.clock_only());
-        let inside = if of_clock { [self.step.start.x; PLACES.len()] } else { self.inside() };
-        self.surfaces_resolved(&inside) && self.extrema_resolved(&inside)
+        if self.functionals.extrema.is_empty() {
+            let of_clock = self.watched.iter().all(|w| w.clock_only());
+            let inside = if of_clock { [self.step.start.x; PLACES.len()] } else { self.states_inside() };
+            return self.surfaces_resolved(&inside);
+        }
+        let points = self.points_inside();
+        self.surfaces_resolved(&points.map(|point| point.x)) && self.extrema_resolved(&points)
     }
 
     /// States at [`PLACES`].
     #[inline(never)]
-    fn inside(&mut self) -> [[f64; N]; PLACES.len()] {
-        let frame = self.segment.frame();
-        let dense = Dense::new(&state_step(&self.step), &|tau, x: &[f64; N]| frame.flow::<M, N, Q>(tau, x));
-        self.statistics.evaluations += 3;
-        PLACES.map(|u| dense.at(u))
+    fn states_inside(&mut self) -> [[f64; N]; PLACES.len()] {
+        let step = state_step::<X, N, W, C>(&self.step);
+        let dense = X::dense::<M, N, P, Q>(self.segment.frame(), &step, &mut self.statistics.evaluations);
+        PLACES.map(|u| X::state(&dense, u))
+    }
+
+    /// States and rates at [`PLACES`].
+    #[inline(never)]
+    fn points_inside(&mut self) -> [Point<N>; PLACES.len()] {
+        let (frame, step) = (self.segment.frame(), state_step::<X, N, W, C>(&self.step));
+        let dense = X::dense::<M, N, P, Q>(frame, &step, &mut self.statistics.evaluations);
+        PLACES.map(|u| X::point::<M, N, P, Q>(frame, &step, &dense, u))
     }
 
     fn surfaces_resolved(&mut self, inside: &[[f64; N]; PLACES.len()]) -> bool {
         let (frame, tau, h): (Frame<'_, P>, f64, f64) = (self.segment.frame(), self.step.tau, self.step.h);
         for w in &mut self.watched {
-            let value = |i: usize| {
-                let env = frame.env(tau + PLACES[i] * h);
-                match w.surface {
-                    Surface::Transition(transition) => M::guard(transition, &inside[i], &env),
-                    Surface::Switch(switch) => M::switch(switch, &inside[i], &env),
-                }
-            };
-            let values: [f64; PLACES.len()] = core::array::from_fn(value);
+            let at = |i: usize| value::<M, N, P, Q>(w.surface, &inside[i], &frame.env(tau + PLACES[i] * h));
+            let values: [f64; PLACES.len()] = core::array::from_fn(at);
             let ends = Ends { start: (w.start.value, h * w.start.rate), end: (w.end.value, h * w.end.rate) };
             let noise = w.start.rounding.max(w.end.rounding);
             if !ends.explain(&values, noise) && !ends.far_from_zero(&values) {
@@ -63,23 +68,23 @@ where
         true
     }
 
-    fn extrema_resolved(&self, inside: &[[f64; N]; PLACES.len()]) -> bool {
-        let (tau, h) = (self.step.tau, self.step.h);
+    fn extrema_resolved(&self, inside: &[Point<N>; PLACES.len()]) -> bool {
+        let (frame, step) = (self.segment.frame(), &self.step);
+        let (tau, h) = (step.tau, step.h);
+        let start = Point { x: step.start.x, k: step.start_rates.x, bend: X::bend(step, 0.0) };
+        let end = Point { x: step.end.x, k: step.end_rates.x, bend: X::bend(step, 1.0) };
         self.functionals.extrema.iter().all(|extremum| {
-            let (o, mode) = (extremum.observable, self.segment.mode);
+            let o = extremum.observable;
             let value = |i: usize| {
-                let at = tau + PLACES[i] * h;
-                let rate = self.segment.frame().flow::<M, N, Q>(at, &inside[i]);
-                M::observable(o, mode, &inside[i], &rate, &self.segment.env(at))
+                let Point { x, k, .. } = &inside[i];
+                M::observable(o, frame.mode, x, k, &frame.env(tau + PLACES[i] * h))
             };
             let values: [f64; PLACES.len()] = core::array::from_fn(value);
-            let slope = |x: &[f64; N], flow: &[f64; N], tau: f64| {
-                let g = M::observable_gradient(o, mode, x, flow, &self.segment.env(tau));
-                let size = (0..N).map(|i| (g.dx[i] * x[i]).abs()).sum::<f64>() + g.value.abs();
-                ((g.value, h * (dot(&g.dx, flow) + g.dtau + g.dt)), 64.0 * f64::EPSILON * size)
+            let slope = |at: &Point<N>, tau: f64| {
+                let s = slope::<M, N, P, Q>(o, frame, tau, at);
+                ((s.value, h * s.rate), s.rounding)
             };
-            let (start, noise) = slope(&self.step.start.x, &self.step.stages[0].x, tau);
-            let (end, more) = slope(&self.step.end.x, &self.step.end_rates.x, tau + h);
+            let ((start, noise), (end, more)) = (slope(&start, tau), slope(&end, tau + h));
             Ends { start, end }.explain(&values, noise.max(more))
         })
     }

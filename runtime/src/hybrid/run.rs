@@ -4,27 +4,45 @@
 //! and transitions), `extremum`, `map` (the loop from section to section).
 
 use super::functionals::Functionals;
-use super::rates::{Rates, Segment};
+use super::segment::Segment;
 use crate::event::{Watched, read};
+use crate::integrate::{Carried, Method, Purpose, StepOf};
 use crate::model::Model;
-use crate::ode::{Bundle, Controller, Stages, Step, Tolerance, attempt, error};
+use crate::ode::{Bundle, Controller, Step, Tolerance};
 use crate::return_map::{Accuracy, Event, Statistics, StopReason, Warning};
 use core::marker::PhantomData;
 
 /// Steps in a row that may fail before the run gives up.
 const MOST_REJECTIONS: usize = 80;
 
+/// Runs of fewer steps are not looked at for stiffness.
+const UNSUSPICIOUS: usize = 100;
+/// So many steps in a row at the method's stability limit make a run stiff.
+const STIFF_STEPS: usize = 30;
+
 /// By how much the largest allowed step grows after each step that was short enough.
 const CEILING_GROWTH: f64 = 1.25;
 
-/// A run: model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
-pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize> {
+/// A run: method X, model M, right-hand side R, N states, P parameters, Q integrals of the model, W that are carried, C columns.
+pub(crate) struct Run<
+    'a,
+    X: Method,
+    M,
+    R,
+    const N: usize,
+    const P: usize,
+    const Q: usize,
+    const W: usize,
+    const C: usize,
+> {
     /// How accurately and how far.
     pub(crate) accuracy: Accuracy,
     /// What is constant in the segment.
     pub(crate) segment: Segment<'a, P, C>,
     /// The step that was taken last; its start is where the run is.
-    pub(crate) step: Step<Bundle<N, W, C>>,
+    pub(crate) step: StepOf<X, N, W, C>,
+    /// Room for the method.
+    pub(crate) work: X::Workspace,
     /// Step size control.
     pub(crate) controller: Controller,
     /// Size of the next step; 0 before the first.
@@ -45,25 +63,36 @@ pub(crate) struct Run<'a, M, R, const N: usize, const P: usize, const Q: usize, 
     pub(crate) deadline: f64,
     /// Events in a row that followed almost at once.
     pub(crate) hasty: usize,
+    /// Steps in a row that stability limited, not accuracy.
+    pub(crate) limited: usize,
     pub(crate) kind: PhantomData<(M, R)>,
 }
 
-impl<'a, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
-    Run<'a, M, R, N, P, Q, W, C>
+impl<'a, X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'a, X, M, R, N, P, Q, W, C>
 where
+    X: Method,
     M: Model<N, P, Q>,
-    R: Rates<M, N, P, Q, W, C>,
+    R: Carried<M, N, P, Q, W, C>,
 {
     /// A run that has not started.
-    pub(crate) fn new(accuracy: Accuracy, p: &'a [f64; P], dp: [[f64; P]; C], functionals: Functionals<C>) -> Self {
+    pub(crate) fn new(
+        accuracy: Accuracy,
+        p: &'a [f64; P],
+        (dp, columns): ([[f64; P]; C], usize),
+        functionals: Functionals<C>,
+    ) -> Self {
         let zero = Bundle::ZERO;
-        let step = Step { tau: 0.0, h: 0.0, start: zero, stages: [zero; 12], end: zero, end_rates: zero };
+        let tolerance = Tolerance { relative: accuracy.relative, absolute: accuracy.absolute };
+        let (stages, start_rates, end_rates) = (X::stages(), zero, zero);
+        let step = Step { tau: 0.0, h: 0.0, start: zero, start_rates, stages, end: zero, end_rates };
         let (memory, branch) = (Vec::new(), vec![false; M::INFO.switches.len()]);
         Self {
             accuracy,
-            segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C] },
+            segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C], columns, tolerance },
             step,
-            controller: Controller::default(),
+            work: X::Workspace::default(),
+            controller: Controller::new(X::ERROR_ORDER),
             h: 0.0,
             ceiling: f64::INFINITY,
             watched: Vec::new(),
@@ -73,13 +102,9 @@ where
             statistics: Statistics::default(),
             deadline: accuracy.time_limit,
             hasty: 0,
+            limited: 0,
             kind: PhantomData,
         }
-    }
-
-    /// Tolerance of the local error.
-    pub(crate) fn tolerance(&self) -> Tolerance {
-        Tolerance { relative: self.accuracy.relative, absolute: self.accuracy.absolute }
     }
 
     /// Time since the start of the run.
@@ -89,22 +114,20 @@ where
 
     /// Takes one step that satisfies the error control, and reads all surfaces at its end.
     pub(crate) fn advance(&mut self) -> Result<(), StopReason> {
-        let tolerance = self.tolerance();
         let mut failure = StopReason::StepTooSmall;
         for _ in 0..MOST_REJECTIONS {
             let rest = self.deadline - self.time();
             if rest <= f64::EPSILON * self.deadline {
                 return Err(StopReason::NoEvent);
             }
-            if self.statistics.steps + self.statistics.rejected >= self.accuracy.step_limit {
+            if self.statistics.steps + self.statistics.rejected >= self.accuracy.step_limit || self.stiff() {
                 return Err(StopReason::StepLimit);
             }
             let h = self.h.min(rest);
             if h <= 2.0 * f64::EPSILON * self.step.tau || h.is_nan() || h == 0.0 {
                 break;
             }
-            self.try_step(h);
-            let mut size = error(h, &self.step.start, &self.step.end, &self.step.stages, tolerance);
+            let mut size = self.attempt(h, Purpose::Advance);
             if size <= 1.0 && !self.finish_step() {
                 size = f64::NAN;
             }
@@ -119,71 +142,77 @@ where
             if accepted {
                 self.ceiling *= CEILING_GROWTH;
                 self.statistics.steps += 1;
+                if self.statistics.steps > UNSUSPICIOUS {
+                    self.limited = if X::stiffness(&self.step) > 1.0 { self.limited + 1 } else { 0 };
+                }
                 return Ok(());
             }
-            failure = if size.is_finite() { StopReason::StepTooSmall } else { StopReason::NotFinite };
+            failure = if size.is_nan() { StopReason::NotFinite } else { StopReason::StepTooSmall };
             self.statistics.rejected += 1;
         }
         Err(if self.domain_ends() { StopReason::NotFinite } else { failure })
     }
 
-    /// Whether the flow is not defined a short way ahead along its tangent. At the edge of a domain (a square root near
-    /// zero) the error control alone asks for ever smaller steps that all stay inside.
+    /// Whether the equations are not defined a short way ahead along the tangent. At the edge of a domain (a square root
+    /// near zero) the error control alone asks for ever smaller steps that all stay inside.
     fn domain_ends(&self) -> bool {
         let ahead = 1e-6 * self.time();
-        let mut x = self.step.start.x;
+        let (mut x, k) = (self.step.start.x, &self.step.start_rates.x);
         for i in 0..N {
-            x[i] += ahead * self.step.stages[0].x[i];
+            x[i] += ahead * k[i];
         }
-        let flow = self.segment.frame().flow::<M, N, Q>(self.step.tau + ahead, &x);
-        !flow.iter().all(|v| v.is_finite())
+        !X::defined::<M, N, P, Q>(self.segment.frame(), self.step.tau + ahead, &x, k)
     }
 
-    fn try_step(&mut self, h: f64) {
-        self.step.h = h;
-        self.step.end = Self::attempt(&self.segment, self.step.tau, h, &self.step.start, &mut self.step.stages);
-        self.statistics.evaluations += 11;
+    /// Whether the run is stiff: stability has limited many steps in a row.
+    pub(crate) fn stiff(&self) -> bool {
+        self.limited >= STIFF_STEPS
     }
 
-    /// One step of everything; the one place where the method is compiled for this model and number of columns.
-    #[inline(never)]
-    pub(crate) fn attempt(
-        segment: &Segment<'_, P, C>,
-        tau: f64,
-        h: f64,
-        start: &Bundle<N, W, C>,
-        stages: &mut Stages<Bundle<N, W, C>>,
-    ) -> Bundle<N, W, C> {
-        attempt(&|tau: f64, y: &Bundle<N, W, C>| R::rates(segment, tau, y), tau, h, start, stages)
+    fn attempt(&mut self, h: f64, purpose: Purpose) -> f64 {
+        let (segment, tolerance) = (&self.segment, self.segment.tolerance);
+        let evaluations = &mut self.statistics.evaluations;
+        X::attempt::<M, R, N, P, Q, W, C>(
+            &segment.held(),
+            &mut self.step,
+            h,
+            purpose,
+            tolerance,
+            &mut self.work,
+            evaluations,
+        )
     }
 
-    /// Flow and surfaces at the end of the step; false when any is not finite.
+    fn finish(&mut self) {
+        let evaluations = &mut self.statistics.evaluations;
+        X::finish::<M, R, N, P, Q, W, C>(&self.segment.held(), &mut self.step, evaluations);
+    }
+
+    /// Rates and surfaces at the end of the step; false when any is not finite.
     fn finish_step(&mut self) -> bool {
-        let tau = self.step.tau + self.step.h;
-        self.step.end_rates = R::rates(&self.segment, tau, &self.step.end);
-        self.statistics.evaluations += 1;
-        let (x, flow) = (&self.step.end.x, &self.step.end_rates.x);
-        let env = self.segment.env(tau);
-        let mut finite = flow.iter().all(|v| v.is_finite());
+        self.finish();
+        let (x, rate) = (&self.step.end.x, &self.step.end_rates.x);
+        let env = self.segment.env(self.step.tau + self.step.h);
+        let mut finite = rate.iter().all(|v| v.is_finite());
         for watched in &mut self.watched {
-            watched.end = read::<M, N, P, Q>(watched.surface, x, flow, &env);
+            watched.end = read::<M, N, P, Q>(watched.surface, x, rate, &env);
             finite &= watched.end.value.is_finite();
         }
         finite
     }
 
     /// Replaces the step by a shorter one from the same start that ends at an event.
-    pub(crate) fn shorten(&mut self, h: f64) {
-        self.try_step(h);
-        let tau = self.step.tau + h;
-        self.step.end_rates = R::rates(&self.segment, tau, &self.step.end);
-        self.statistics.evaluations += 1;
+    pub(crate) fn shorten(&mut self, h: f64) -> Result<(), StopReason> {
+        let solved = self.attempt(h, Purpose::Land);
+        self.finish();
+        // It is shorter than a step that was accepted, so this is all but impossible.
+        if solved.is_finite() { Ok(()) } else { Err(StopReason::StepTooSmall) }
     }
 
     /// Makes the end of the step the place where the run is.
     pub(crate) fn move_on(&mut self) {
         self.step.tau += self.step.h;
         self.step.start = self.step.end;
-        self.step.stages[0] = self.step.end_rates;
+        self.step.start_rates = self.step.end_rates;
     }
 }

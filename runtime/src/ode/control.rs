@@ -5,7 +5,6 @@
 
 use super::step::Tolerance;
 
-const ORDER: f64 = 8.0;
 const BETA: f64 = 0.02;
 const SAFETY: f64 = 0.9;
 const LARGEST_GROWTH: f64 = 6.0;
@@ -16,24 +15,24 @@ const NOT_FINITE_SHRINK: f64 = 0.25;
 /// Proposes step sizes from errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Controller {
+    order: f64,
     previous: f64,
     rejected: bool,
 }
 
-impl Default for Controller {
-    fn default() -> Self {
-        Self { previous: 1e-4, rejected: false }
-    }
-}
-
 impl Controller {
+    /// For an error estimate that behaves like h to the power `order`.
+    pub fn new(order: f64) -> Self {
+        Self { order, previous: 1e-4, rejected: false }
+    }
+
     /// Whether a step with this error is accepted, and the size of the next one (or of the next attempt).
     pub fn judge(&mut self, error: f64, h: f64) -> (bool, f64) {
         if !error.is_finite() {
             self.rejected = true;
             return (false, h * NOT_FINITE_SHRINK);
         }
-        let alpha = 1.0 / ORDER - 0.2 * BETA;
+        let alpha = 1.0 / self.order - 0.2 * BETA;
         let plain = SAFETY * error.max(1e-12).powf(-alpha);
         if error > 1.0 {
             self.rejected = true;
@@ -47,7 +46,8 @@ impl Controller {
     }
 }
 
-/// A first step size from one more evaluation of the flow: the second derivative tells how fast the flow changes.
+/// A first step size for a method of order 8, from one more evaluation of the flow: the second derivative tells how fast
+/// the flow changes.
 pub fn first_step<const N: usize>(
     flow: &impl Fn(f64, &[f64; N]) -> [f64; N],
     tau: f64,
@@ -74,7 +74,7 @@ pub fn first_step<const N: usize>(
     let later = flow(tau + trial, &ahead);
     let bend = scaled(&|i| later[i] - rate[i]) / trial;
     let largest = speed.max(bend);
-    let guess = if largest <= 1e-15 { (trial * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / ORDER) };
+    let guess = if largest <= 1e-15 { (trial * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / 8.0) };
     let guess = if guess.is_finite() { guess.min(100.0 * trial) } else { trial };
     guess.min(longest)
 }

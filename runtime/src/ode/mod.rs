@@ -1,18 +1,15 @@
-//! Integration of smooth pieces: one explicit Runge-Kutta step of order 8, its error, its dense output, the step size.
+//! Integration of smooth pieces: one step, its error, its dense output, the step size; by an explicit method of order 8
+//! for y' = f(tau, y), and by Radau IIA for F(tau, x, x') = 0.
 //!
-//! The equation is y' = f(tau, y) with y a [`Bundle`]: state, integrals and the variations of both. Nothing here knows
-//! of models, guards or resets.
+//! What is integrated is a [`Bundle`]: state, integrals and the variations of both. Nothing here knows of guards or
+//! resets; the implicit method sees a model through [`radau::Implicit`] only.
 
 mod bundle;
-mod coefficients;
 mod control;
-mod dense;
+pub mod explicit;
+pub mod radau;
 mod step;
 
 pub use bundle::{Bundle, OdeState};
 pub use control::{Controller, first_step};
-pub use dense::Dense;
-pub use step::{Stages, Step, Tolerance, attempt, error};
-
-#[cfg(test)]
-mod tests;
+pub use step::{Step, Tolerance};

@@ -150,6 +150,7 @@ fn stop_text(stop: &Stop) -> String {
         StopReason::StepLimit => "the integration needs more steps than allowed",
         StopReason::StepTooSmall => "the integration needs steps below rounding",
         StopReason::NotFinite => "the run leaves the domain where the model is defined",
+        StopReason::Inconsistent => "the state contradicts the equations where the mass matrix is singular",
         StopReason::Zeno => "transitions pile up in time",
     };
     format!("{why} (after {:.6} s)", stop.time)

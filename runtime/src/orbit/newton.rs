@@ -295,6 +295,9 @@ fn why(reason: StopReason) -> &'static str {
         StopReason::StepLimit => "the limit on steps was reached",
         StopReason::StepTooSmall => "the error control asked for a step below rounding",
         StopReason::NotFinite => "a value was not finite, the run left the model's domain",
+        StopReason::Inconsistent => {
+            "the state contradicts the equations where the mass matrix is singular (does the reset lead to a consistent state?)"
+        }
         StopReason::Zeno => "transitions piled up in time, or a step took no time",
     }
 }

@@ -22,6 +22,19 @@ pub trait Equations<const N: usize, const P: usize, const Q: usize>: Copy + Defa
     fn integrands<S: Scalar>(_mode: usize, _x: &[S; N], _env: &Env<'_, S, P>) -> [S; Q] {
         [c(0.0); Q]
     }
+    /// F = M k - f; by default M is the identity.
+    fn residual<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> [S; N] {
+        let f = Self::flow(mode, x, env);
+        core::array::from_fn(|i| k[i] - f[i])
+    }
+    /// Integrands that depend on rates.
+    fn integrands_with_rate<S: Scalar>(mode: usize, x: &[S; N], _k: &[S; N], env: &Env<'_, S, P>) -> [S; Q] {
+        Self::integrands(mode, x, env)
+    }
+    /// Observables that depend on rates.
+    fn observable_with_rate<S: Scalar>(i: usize, mode: usize, x: &[S; N], _k: &[S; N], env: &Env<'_, S, P>) -> S {
+        Self::observable(i, mode, x, env)
+    }
     fn switch<S: Scalar>(_index: usize, _x: &[S; N], _env: &Env<'_, S, P>) -> S {
         c(f64::NAN)
     }
@@ -155,8 +168,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         Integrated { flow, integrands, dflow, dintegrands }
     }
     fn residual<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> [S; N] {
-        let f = E::flow(mode, x, env);
-        core::array::from_fn(|i| k[i] - f[i])
+        E::residual(mode, x, k, env)
     }
     fn residual_jacobian<S: Scalar>(
         mode: usize,
@@ -164,31 +176,35 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         k: &[S; N],
         env: &Env<'_, S, P>,
     ) -> ResidualJacobian<S, N, P> {
-        let j = Self::flow_jacobian(mode, x, env);
-        let minus = |v: [S; N]| v.map(|v| -v);
-        let value = core::array::from_fn(|i| k[i] - j.value[i]);
-        let dk = core::array::from_fn(unit);
-        ResidualJacobian { value, dx: j.dx.map(minus), dk, dp: j.dp.map(minus), dtau: minus(j.dtau), dt: minus(j.dt) }
+        let (still, held) = (lift(k, &[c(0.0); N]), [c(0.0); N]);
+        let j = jacobian(x, env, |x, env| E::residual(mode, x, &still, env));
+        let dk = core::array::from_fn(|i| {
+            let moved = lift(k, &unit(i));
+            along(x, &held, env, &[c(0.0); P], c(0.0), c(0.0), |x, env| E::residual(mode, x, &moved, env))
+                .map(|d| d.derivative)
+        });
+        ResidualJacobian { value: j.value, dx: j.dx, dk, dp: j.dp, dtau: j.dtau, dt: j.dt }
     }
     fn residual_linearised<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> Linearised<S, N> {
         let ResidualJacobian { value, dx, dk, .. } = Self::residual_jacobian(mode, x, k, env);
         Linearised { value, dx, dk }
     }
-    fn integrands<S: Scalar>(mode: usize, x: &[S; N], _: &[S; N], env: &Env<'_, S, P>) -> [S; Q] {
-        E::integrands(mode, x, env)
+    fn integrands<S: Scalar>(mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> [S; Q] {
+        E::integrands_with_rate(mode, x, k, env)
     }
     fn integrands_along<S: Scalar, const C: usize>(
         mode: usize,
         x: &[S; N],
-        _: &[S; N],
+        k: &[S; N],
         d: &Directions<'_, S, N, P, C>,
         env: &Env<'_, S, P>,
     ) -> ([S; Q], [[S; Q]; C]) {
-        let one = |k: usize| {
-            along(x, &d.dx[k], env, &d.dp[k], c(0.0), d.dt[k], |x, env| E::integrands(mode, x, env))
+        let one = |i: usize| {
+            let k = lift(k, &d.dk[i]);
+            along(x, &d.dx[i], env, &d.dp[i], c(0.0), d.dt[i], |x, env| E::integrands_with_rate(mode, x, &k, env))
                 .map(|d| d.derivative)
         };
-        (E::integrands(mode, x, env), core::array::from_fn(one))
+        (E::integrands_with_rate(mode, x, k, env), core::array::from_fn(one))
     }
     fn switch<S: Scalar>(index: usize, x: &[S; N], env: &Env<'_, S, P>) -> S {
         E::switch(index, x, env)
@@ -235,18 +251,25 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
     fn symmetry_jacobian<S: Scalar>(x: &[S; N], p: &[S; P]) -> Jacobian<S, N, P> {
         jacobian(x, &bare(p), |x, env| E::symmetry(x, env.p))
     }
-    fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], _: &[S; N], env: &Env<'_, S, P>) -> S {
-        E::observable(index, mode, x, env)
+    fn observable<S: Scalar>(index: usize, mode: usize, x: &[S; N], k: &[S; N], env: &Env<'_, S, P>) -> S {
+        E::observable_with_rate(index, mode, x, k, env)
     }
     fn observable_gradient<S: Scalar>(
         index: usize,
         mode: usize,
         x: &[S; N],
-        _: &[S; N],
+        k: &[S; N],
         env: &Env<'_, S, P>,
     ) -> RateGradient<S, N, P> {
-        let Gradient { value, dx, dp, dtau, dt } = gradient(x, env, |x, env| E::observable(index, mode, x, env));
-        RateGradient { value, dx, dk: [c(0.0); N], dp, dtau, dt }
+        let still = lift(k, &[c(0.0); N]);
+        let Gradient { value, dx, dp, dtau, dt } =
+            gradient(x, env, |x, env| E::observable_with_rate(index, mode, x, &still, env));
+        let dk = core::array::from_fn(|i| {
+            let k = lift(k, &unit(i));
+            let f = |x: &[Dual<S>; N], env: &Env<'_, Dual<S>, P>| E::observable_with_rate(index, mode, x, &k, env);
+            along(x, &[c(0.0); N], env, &[c(0.0); P], c(0.0), c(0.0), f).derivative
+        });
+        RateGradient { value, dx, dk, dp, dtau, dt }
     }
     fn measures<S: Scalar>(functionals: &[S], p: &[S; P], out: &mut [S]) {
         E::measures(functionals, p, out);

@@ -2,9 +2,9 @@
 //!
 //! It serves to bracket events and extrema; accurate values come from re-stepping (see `event::locate`).
 
-use super::bundle::{Bundle, OdeState};
 use super::coefficients::{A, C, D, DENSE_STAGES, STAGES};
-use super::step::{Step, combine};
+use super::step::{Stages, combine};
+use crate::ode::{Bundle, OdeState, Step};
 
 /// The polynomial of one step, for the N states.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub struct Dense<const N: usize> {
 impl<const N: usize> Dense<N> {
     /// Needs three more evaluations of the flow.
     pub fn new<const Q: usize, const C0: usize>(
-        step: &Step<Bundle<N, Q, C0>>,
+        step: &Step<Bundle<N, Q, C0>, Stages<Bundle<N, Q, C0>>>,
         flow: &impl Fn(f64, &[f64; N]) -> [f64; N],
     ) -> Self {
         let state = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };

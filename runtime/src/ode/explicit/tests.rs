@@ -2,6 +2,7 @@
 
 use super::coefficients::{A, C, D, DENSE_STAGES, E3, E5, STAGES};
 use super::*;
+use crate::ode::{Bundle, Controller, Step, Tolerance};
 use approx::assert_abs_diff_eq;
 
 /// A rooted tree, as the list of its root's subtrees.
@@ -93,13 +94,13 @@ fn field(_: f64, x: &[f64; 2]) -> [f64; 2] {
     [x[1] * x[1], x[0] * x[1]]
 }
 
-fn one_step(tau: f64, h: f64) -> Step<Plane> {
+fn one_step(tau: f64, h: f64) -> Step<Plane, Stages<Plane>> {
     let rates = |tau: f64, y: &Plane| plane(field(tau, &y.x));
     let start = plane([tau.tan(), 1.0 / tau.cos()]);
     let mut stages = [start; 12];
     stages[0] = rates(tau, &start);
     let end = attempt(&rates, tau, h, &start, &mut stages);
-    Step { tau, h, start, stages, end, end_rates: rates(tau + h, &end) }
+    Step { tau, h, start, start_rates: stages[0], stages, end, end_rates: rates(tau + h, &end) }
 }
 
 #[test]
@@ -136,7 +137,7 @@ fn the_error_estimate_falls_like_h_to_the_eighth() {
 
 #[test]
 fn the_controller_shrinks_on_errors_and_grows_without() {
-    let mut controller = Controller::default();
+    let mut controller = Controller::new(ERROR_ORDER);
     let (accepted, h) = controller.judge(300.0, 1.0);
     assert!(!accepted && h < 0.6);
     let (accepted, h) = controller.judge(f64::NAN, 1.0);

@@ -1,0 +1,94 @@
+//! Error of a step, by an embedded formula of order S.
+//!
+//! The embedded solution adds to the collocation formula h gamma k_0 with the rate k_0 at the start of the step and an
+//! implicit term h gamma k at its end (Hairer, Wanner, section IV.8). Its distance e from the step's end obeys, to first
+//! order, (F_k + h gamma F_x) e = F_k d with d = h gamma (k_0 - u'(0)): the collocation polynomial's rate at the start
+//! against the true one. Where the mass matrix vanishes at the end of the step, so does the error of the states that it makes
+//! stiff, as it should: they are slaved there.
+//!
+//! e behaves like h^(S+1), the step's own error like h^(2S): the tolerance for e is the user's to the power
+//! (S+1)/(2S), times a tenth, as in the code RADAU of Hairer and Wanner.
+
+use super::coefficients::Tableau;
+use super::stages::Workspace;
+use crate::model::Linearised;
+use crate::ode::{Bundle, OdeState, Tolerance};
+
+/// The tolerance for the error estimate of a method with `stages` stages.
+pub fn tolerance_of_estimate(tolerance: Tolerance, stages: usize) -> Tolerance {
+    let exponent = (stages + 1) as f64 / (2 * stages) as f64;
+    let map = |value: f64| 0.1 * value.powf(exponent);
+    if tolerance.relative > 0.0 {
+        let relative = map(tolerance.relative);
+        Tolerance { relative, absolute: relative * (tolerance.absolute / tolerance.relative) }
+    } else {
+        Tolerance { relative: 0.0, absolute: map(tolerance.absolute) }
+    }
+}
+
+impl<const S: usize> Tableau<S> {
+    /// d = h gamma (k_0 - u'(0)).
+    pub fn defect<V: OdeState>(&self, h: f64, start_rates: &V, k: &[V; S]) -> V {
+        let at_start = V::ZERO.advance(1.0, self.coefficient(0), k.each_ref());
+        V::ZERO.advance(h * self.gamma, [1.0, -1.0], [start_rates, &at_start])
+    }
+}
+
+impl Workspace {
+    /// Factorises F_k + h gamma F_x, the matrix that turns a defect into an error.
+    pub fn factorise_filter<const N: usize>(&mut self, h_gamma: f64, at: &Linearised<f64, N>) -> bool {
+        self.filter.resize(N);
+        for (a, row) in self.filter.entries_mut().chunks_exact_mut(N.max(1)).enumerate() {
+            for b in 0..N {
+                row[b] = at.dk[b][a] + h_gamma * at.dx[b][a];
+            }
+        }
+        self.filter.factorise()
+    }
+
+    /// (F_k + h gamma F_x)^-1 F_k d.
+    pub fn filtered<const N: usize>(&mut self, at: &Linearised<f64, N>, d: &[f64; N]) -> [f64; N] {
+        let mut e = [0.0; N];
+        for (column, v) in at.dk.iter().zip(d) {
+            for a in 0..N {
+                e[a] += column[a] * v;
+            }
+        }
+        self.filter.solve(&mut e);
+        e
+    }
+}
+
+/// Largest root mean square of `e` over the blocks of `start`, relative to the tolerance; NaN wins.
+pub fn size<const N: usize, const W: usize, const C: usize>(
+    start: &Bundle<N, W, C>,
+    end: &Bundle<N, W, C>,
+    e: &Bundle<N, W, C>,
+    tolerance: Tolerance,
+) -> f64 {
+    let mut worst = 0.0;
+    start.blocks([end, e], &mut |start, [end, e]| {
+        let block = block_size(start, end, e, tolerance);
+        if block > worst || block.is_nan() {
+            worst = block;
+        }
+    });
+    worst
+}
+
+fn block_size(start: &[f64], end: &[f64], e: &[f64], tolerance: Tolerance) -> f64 {
+    if start.is_empty() {
+        return 0.0;
+    }
+    let mut floor = 1.0_f64;
+    for value in start {
+        floor = floor.max(value.abs());
+    }
+    floor *= tolerance.absolute;
+    let mut sum = 0.0;
+    for i in 0..start.len() {
+        let scaled = e[i] / (floor + tolerance.relative * start[i].abs().max(end[i].abs()));
+        sum += scaled * scaled + end[i] * 0.0;
+    }
+    (sum / start.len() as f64).sqrt()
+}

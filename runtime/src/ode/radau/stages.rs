@@ -1,0 +1,174 @@
+//! The rates of the stages, by Newton's method on all of them at once.
+//!
+//! The matrix has the blocks delta_ij F_k + h a_ij F_x, each row of blocks with the derivatives at its own stage: where the
+//! mass matrix changes from nothing to full size within a step, one matrix for all stages would not do. It is kept as long
+//! as the iteration contracts well.
+
+use super::coefficients::Tableau;
+use super::lu::Factors;
+use super::polynomial::weighted;
+use crate::model::Linearised;
+
+/// Most iterations of one step.
+const ITERATIONS: usize = 14;
+/// An iteration that contracts less than this gets a new matrix.
+const GOOD_CONTRACTION: f64 = 0.05;
+
+/// An equation F(tau, x, k) = 0 for the rate k of the state x.
+pub trait Implicit<const N: usize> {
+    /// F.
+    fn residual(&self, tau: f64, x: &[f64; N], k: &[f64; N]) -> [f64; N];
+    /// F with its derivatives in x and k.
+    fn linearised(&self, tau: f64, x: &[f64; N], k: &[f64; N]) -> Linearised<f64, N>;
+}
+
+/// Rates of the stages.
+pub type Rates<const N: usize, const S: usize> = [[f64; N]; S];
+
+/// Matrices and vectors that are used again from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct Workspace {
+    /// The matrix of all stages.
+    pub(super) stages: Factors,
+    /// The matrix of the error estimate.
+    pub(super) filter: Factors,
+    /// Right-hand side and solution.
+    pub(super) vector: Vec<f64>,
+}
+
+impl Workspace {
+    /// Makes room for N states and S stages.
+    pub(super) fn fit<const N: usize, const S: usize>(&mut self) {
+        self.stages.resize(N * S);
+        self.filter.resize(N);
+        self.vector.resize(N * S, 0.0);
+    }
+
+    /// Fills in and factorises the matrix of all stages.
+    pub(super) fn factorise<const N: usize, const S: usize>(
+        &mut self,
+        tableau: &Tableau<S>,
+        h: f64,
+        linearised: &[Linearised<f64, N>; S],
+    ) -> bool {
+        let n = N * S;
+        let entries = self.stages.entries_mut();
+        for (i, at) in linearised.iter().enumerate() {
+            for a in 0..N {
+                let row = &mut entries[(i * N + a) * n..(i * N + a + 1) * n];
+                for (j, block) in row.chunks_exact_mut(N).enumerate() {
+                    let weight = h * tableau.a[i][j];
+                    for b in 0..N {
+                        block[b] = weight * at.dx[b][a];
+                    }
+                    if i == j {
+                        for b in 0..N {
+                            block[b] += at.dk[b][a];
+                        }
+                    }
+                }
+            }
+        }
+        self.stages.factorise()
+    }
+}
+
+/// State at stage i.
+#[inline]
+pub(super) fn state_at<const N: usize, const S: usize>(
+    tableau: &Tableau<S>,
+    i: usize,
+    h: f64,
+    x: &[f64; N],
+    k: &Rates<N, S>,
+) -> [f64; N] {
+    let change = weighted(&tableau.a[i], k);
+    core::array::from_fn(|a| x[a] + h * change[a])
+}
+
+/// Solves for the rates `k` of the stages of a step of size `h` from (`tau`, `x`), starting from what `k` holds. `scale` is
+/// the size of a change of each state that does not matter. Also returns the derivatives at the last stage where the
+/// matrix was made; `None` when the iteration does not converge.
+pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
+    tableau: &Tableau<S>,
+    equation: &E,
+    (tau, h): (f64, f64),
+    x: &[f64; N],
+    k: &mut Rates<N, S>,
+    scale: &[f64; N],
+    work: &mut Workspace,
+) -> Option<(Linearised<f64, N>, usize)> {
+    work.fit::<N, S>();
+    let mut last: Option<Linearised<f64, N>> = None;
+    let (mut before, mut stale) = (f64::INFINITY, true);
+    for iteration in 1..=ITERATIONS {
+        if stale {
+            let linearised = core::array::from_fn(|i| {
+                equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
+            });
+            if !work.factorise(tableau, h, &linearised) {
+                return None;
+            }
+            for (i, at) in linearised.iter().enumerate() {
+                work.vector[i * N..(i + 1) * N].copy_from_slice(&at.value);
+            }
+            last = Some(linearised[S - 1]);
+        } else {
+            for i in 0..S {
+                let value = equation.residual(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
+                work.vector[i * N..(i + 1) * N].copy_from_slice(&value);
+            }
+        }
+        work.stages.solve(&mut work.vector);
+        let mut step = [[0.0; N]; S];
+        for (i, d) in step.iter_mut().enumerate() {
+            d.copy_from_slice(&work.vector[i * N..(i + 1) * N]);
+            for a in 0..N {
+                k[i][a] -= d[a];
+            }
+        }
+        let size = largest(tableau, h, &step, scale);
+        if !size.is_finite() {
+            return None;
+        }
+        if done(iteration, size, before) {
+            return last.map(|last| (last, iteration));
+        }
+        if iteration > 2 && size > 2.0 * before {
+            return None;
+        }
+        stale = size > GOOD_CONTRACTION * before;
+        before = size;
+    }
+    None
+}
+
+/// Whether what is left after a step of this size does not matter, judged by how fast the steps shrink.
+fn done(iteration: usize, size: f64, before: f64) -> bool {
+    // A first step has nothing to compare with.
+    let contraction = if iteration == 1 { 1.0 } else { size / before };
+    let left = if contraction < 1.0 { size * contraction / (1.0 - contraction) } else { f64::INFINITY };
+    left <= 1.0 || size <= NEGLIGIBLE || (contraction > STAGNATION && size <= ROUNDING && iteration > 2)
+}
+
+/// Steps below this, relative to `scale`, are the last ones whatever the contraction.
+const NEGLIGIBLE: f64 = 1e-2;
+/// Steps that shrink no faster than this and are below `ROUNDING` are rounding errors.
+const STAGNATION: f64 = 0.3;
+const ROUNDING: f64 = 32.0;
+
+/// Largest change of a stage's state, relative to `scale`.
+fn largest<const N: usize, const S: usize>(tableau: &Tableau<S>, h: f64, step: &Rates<N, S>, scale: &[f64; N]) -> f64 {
+    let mut worst = 0.0;
+    for i in 0..S {
+        let change = weighted(&tableau.a[i], step);
+        for a in 0..N {
+            let size = (h * change[a] / scale[a]).abs();
+            // NaN wins, and stays.
+            if size > worst || size.is_nan() {
+                worst = size;
+            }
+        }
+    }
+    worst
+}
