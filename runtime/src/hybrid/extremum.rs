@@ -5,6 +5,7 @@
 //! re-step of state and variations to that place.
 
 use super::functionals::{Variation, Varied, along, observe};
+use super::landing::LAST_PART;
 use super::passing::Place;
 use super::resolution::PLACES;
 use super::run::Run;
@@ -79,8 +80,18 @@ where
     ) -> Varied<C> {
         let (held, mut y) = (segment.held(), *step);
         let tolerance = segment.tolerance;
-        X::attempt::<M, R, N, P, Q, W, C>(&held, &mut y, h, Purpose::Land, tolerance, work, evaluations);
-        X::finish::<M, R, N, P, Q, W, C>(&held, &mut y, evaluations);
+        let mut go = |y: &mut StepOf<X, N, W, C>, h: f64| {
+            X::attempt::<M, R, N, P, Q, W, C>(&held, y, h, Purpose::Land, tolerance, work, evaluations);
+            X::finish::<M, R, N, P, Q, W, C>(&held, y, evaluations);
+        };
+        if X::RATES_BY_POLYNOMIAL {
+            // In two parts, as events are landed on.
+            go(&mut y, (1.0 - LAST_PART) * h);
+            y.move_on();
+            go(&mut y, LAST_PART * h);
+        } else {
+            go(&mut y, h);
+        }
         let (at, env) = ((&y.end.x, &y.end_rates.x), segment.env(step.tau + h));
         observe::<M, N, P, Q, C>(observable, segment.mode, at, &env, |g, c| {
             let (dx, dk) = (&y.end.dx[c], &y.end_rates.dx[c]);

@@ -86,8 +86,7 @@ where
                 self.move_on();
                 continue;
             };
-            self.shorten(first.h)?;
-            self.examine_extrema();
+            self.land(first)?;
             let last = record && self.fires(first.watched, section);
             match self.pass(&found, last)? {
                 Some(transition) if transition == section => return Ok(()),

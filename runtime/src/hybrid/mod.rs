@@ -5,6 +5,7 @@
 
 mod extremum;
 mod functionals;
+mod landing;
 mod map;
 mod passing;
 mod request;

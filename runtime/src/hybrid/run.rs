@@ -92,7 +92,7 @@ where
             segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C], columns, tolerance },
             step,
             work: X::Workspace::default(),
-            controller: Controller::new(X::ERROR_ORDER),
+            controller: X::controller(),
             h: 0.0,
             ceiling: f64::INFINITY,
             watched: Vec::new(),
@@ -169,7 +169,7 @@ where
         self.limited >= STIFF_STEPS
     }
 
-    fn attempt(&mut self, h: f64, purpose: Purpose) -> f64 {
+    pub(crate) fn attempt(&mut self, h: f64, purpose: Purpose) -> f64 {
         let (segment, tolerance) = (&self.segment, self.segment.tolerance);
         let evaluations = &mut self.statistics.evaluations;
         X::attempt::<M, R, N, P, Q, W, C>(
@@ -183,7 +183,7 @@ where
         )
     }
 
-    fn finish(&mut self) {
+    pub(crate) fn finish(&mut self) {
         let evaluations = &mut self.statistics.evaluations;
         X::finish::<M, R, N, P, Q, W, C>(&self.segment.held(), &mut self.step, evaluations);
     }
@@ -201,18 +201,8 @@ where
         finite
     }
 
-    /// Replaces the step by a shorter one from the same start that ends at an event.
-    pub(crate) fn shorten(&mut self, h: f64) -> Result<(), StopReason> {
-        let solved = self.attempt(h, Purpose::Land);
-        self.finish();
-        // It is shorter than a step that was accepted, so this is all but impossible.
-        if solved.is_finite() { Ok(()) } else { Err(StopReason::StepTooSmall) }
-    }
-
     /// Makes the end of the step the place where the run is.
     pub(crate) fn move_on(&mut self) {
-        self.step.tau += self.step.h;
-        self.step.start = self.step.end;
-        self.step.start_rates = self.step.end_rates;
+        self.step.move_on();
     }
 }

@@ -3,7 +3,7 @@
 use super::{Carried, Frame, Held, Method, Point, Purpose, StateStep, StepOf, Typical};
 use crate::model::Model;
 use crate::ode::explicit::{Dense, ERROR_ORDER, Stages, attempt, error, stiffness};
-use crate::ode::{Bundle, Tolerance, first_step};
+use crate::ode::{Bundle, Controller, Tolerance, first_step};
 use crate::return_map;
 
 /// The explicit method.
@@ -18,10 +18,14 @@ fn flow<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
 
 impl Method for Explicit {
     const KIND: return_map::Method = return_map::Method::Explicit;
-    const ERROR_ORDER: f64 = ERROR_ORDER;
+    const RATES_BY_POLYNOMIAL: bool = false;
     type Stages<const N: usize, const W: usize, const C: usize> = Stages<Bundle<N, W, C>>;
     type Dense<const N: usize> = Dense<N>;
     type Workspace = ();
+
+    fn controller() -> Controller {
+        Controller::new(ERROR_ORDER)
+    }
 
     fn stages<const N: usize, const W: usize, const C: usize>() -> Stages<Bundle<N, W, C>> {
         [Bundle::ZERO; 12]

@@ -15,7 +15,7 @@ pub(crate) use frame::{Frame, Held};
 pub(crate) use radau::Radau;
 
 use crate::model::Model;
-use crate::ode::{Bundle, Step, Tolerance};
+use crate::ode::{Bundle, Controller, Step, Tolerance};
 use crate::return_map;
 use core::fmt::Debug;
 
@@ -50,14 +50,17 @@ pub(crate) enum Purpose {
 pub(crate) trait Method: Copy + Debug + Send + Sync + 'static {
     /// Its public name.
     const KIND: return_map::Method;
-    /// The error estimate behaves like h to this power.
-    const ERROR_ORDER: f64;
+    /// Whether the rate at the end of a step is no better than the polynomial through its stages.
+    const RATES_BY_POLYNOMIAL: bool;
     /// What it keeps of a step.
     type Stages<const N: usize, const W: usize, const C: usize>: Copy + Debug;
     /// Its continuous output.
     type Dense<const N: usize>: Copy + Debug;
     /// Room that is used again from step to step.
     type Workspace: Default + Debug;
+
+    /// Its step size control.
+    fn controller() -> Controller;
 
     /// No stages yet.
     fn stages<const N: usize, const W: usize, const C: usize>() -> Self::Stages<N, W, C>;

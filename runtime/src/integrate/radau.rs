@@ -6,7 +6,7 @@ use crate::ode::radau::{
     Differentiated, Implicit, Polynomial, RADAU3, RADAU5, Rates, Tableau, Workspace, size, solve,
     tolerance_of_estimate, weighted,
 };
-use crate::ode::{Bundle, OdeState, Tolerance};
+use crate::ode::{Bundle, Controller, OdeState, Tolerance};
 use crate::return_map;
 use core::marker::PhantomData;
 
@@ -14,6 +14,10 @@ use core::marker::PhantomData;
 const NEWTON: f64 = 0.03;
 /// Changes of so many units in the last place cannot be told from rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// Factor of the tolerance for the error estimate.
+const FACTOR: f64 = 1.0;
+/// The same where functionals may take rates.
+const FACTOR_WITH_RATES: f64 = 0.1;
 /// How far the polynomial of the step before predicts, in its own lengths.
 const REACH: f64 = 2.0;
 /// The first rates of a segment come from a step of this fraction of a typical one ...
@@ -80,10 +84,14 @@ where
     Self: Tabulated<S>,
 {
     const KIND: return_map::Method = <Self as Tabulated<S>>::KIND;
-    const ERROR_ORDER: f64 = (S + 1) as f64;
+    const RATES_BY_POLYNOMIAL: bool = true;
     type Stages<const N: usize, const W: usize, const C: usize> = Stages<N, W, C, S>;
     type Dense<const N: usize> = Polynomial<N, S>;
     type Workspace = Workspace;
+
+    fn controller() -> Controller {
+        Controller::predictive((S + 1) as f64)
+    }
 
     fn stages<const N: usize, const W: usize, const C: usize>() -> Stages<N, W, C, S> {
         Stages { k: [Bundle::ZERO; S], polynomial: None }
@@ -127,7 +135,7 @@ where
                     step.stages.polynomial = None;
                     return Some(match typical {
                         Typical::Size(known) => known,
-                        Typical::Longest(_) => h * (0.1 / uncertainty).powf(1.0 / Self::ERROR_ORDER).clamp(1.0, 1e4),
+                        Typical::Longest(_) => h * (0.1 / uncertainty).powf(1.0 / (S + 1) as f64).clamp(1.0, 1e4),
                     });
                 }
             }
@@ -160,7 +168,8 @@ where
             return if at_start.iter().all(|v| v.is_finite()) { f64::INFINITY } else { f64::NAN };
         };
         let advance = purpose == Purpose::Advance;
-        let estimate = tolerance_of_estimate(tolerance, S);
+        let factor = if R::MEASURED { FACTOR_WITH_RATES } else { FACTOR };
+        let estimate = tolerance_of_estimate(tolerance, S, factor);
         if advance {
             let error = Self::state_error(step, &last, estimate, work);
             if !(error <= 1.0) {
@@ -388,7 +397,7 @@ where
     ) -> f64 {
         let term = |m: usize| {
             let coefficient = Bundle::ZERO.advance(step.h, Self::TABLEAU.coefficient(m), step.stages.k.each_ref());
-            size(&step.start, &step.end, &coefficient, tolerance_of_estimate(tolerance, S))
+            size(&step.start, &step.end, &coefficient, tolerance_of_estimate(tolerance, S, FACTOR_WITH_RATES))
         };
         let (last, before) = (term(S - 1), term(S - 2));
         if last == 0.0 { 0.0 } else { last * (last / before).min(1.0) }

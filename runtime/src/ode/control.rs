@@ -18,12 +18,21 @@ pub struct Controller {
     order: f64,
     previous: f64,
     rejected: bool,
+    /// Size and error of the last accepted step, where the controller looks at how errors change from step to step.
+    accepted: Option<(f64, f64)>,
+    predictive: bool,
 }
 
 impl Controller {
     /// For an error estimate that behaves like h to the power `order`.
     pub fn new(order: f64) -> Self {
-        Self { order, previous: 1e-4, rejected: false }
+        Self { order, previous: 1e-4, rejected: false, accepted: None, predictive: false }
+    }
+
+    /// The same, and sizes follow the trend of the errors: a solution that gets harder from step to step would have every
+    /// second step rejected (Gustafsson's predictive control; Hairer, Wanner, section IV.8).
+    pub fn predictive(order: f64) -> Self {
+        Self { predictive: true, ..Self::new(order) }
     }
 
     /// Whether a step with this error is accepted, and the size of the next one (or of the next attempt).
@@ -40,9 +49,24 @@ impl Controller {
         }
         let limit = if self.rejected { 1.0 } else { LARGEST_GROWTH };
         let factor = (plain * self.previous.powf(BETA)).clamp(LARGEST_SHRINK, limit);
+        let factor = factor.min(self.trend(error, h)).max(LARGEST_SHRINK);
         self.previous = error.max(1e-4);
         self.rejected = false;
         (true, h * factor)
+    }
+}
+
+impl Controller {
+    /// The factor that the last two accepted steps suggest; infinite when there is nothing to go by.
+    fn trend(&mut self, error: f64, h: f64) -> f64 {
+        let error = error.max(1e-2);
+        let before = self.accepted.replace((h, error));
+        match before {
+            Some((size, last)) if self.predictive => {
+                SAFETY * (h / size) * (last / (error * error)).powf(1.0 / self.order)
+            }
+            _ => f64::INFINITY,
+        }
     }
 }
 

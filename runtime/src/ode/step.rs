@@ -19,6 +19,15 @@ pub struct Step<V, K> {
     pub end_rates: V,
 }
 
+impl<V: Copy, K> Step<V, K> {
+    /// Makes the end the start of the next step.
+    pub fn move_on(&mut self) {
+        self.tau += self.h;
+        self.start = self.end;
+        self.start_rates = self.end_rates;
+    }
+}
+
 /// Tolerance of the local error of a component: `relative * |y| + absolute * max(1, largest of its block)`.
 ///
 /// The block's size enters so that a component of a large variation that passes through zero is not asked for digits

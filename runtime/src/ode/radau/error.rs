@@ -7,17 +7,19 @@
 //! stiff, as it should: they are slaved there.
 //!
 //! e behaves like h^(S+1), the step's own error like h^(2S): the tolerance for e is the user's to the power
-//! (S+1)/(2S), times a tenth, as in the code RADAU of Hairer and Wanner.
+//! (S+1)/(2S), as in the code RADAU of Hairer and Wanner, times a factor. States that the mass matrix makes stiff have no more
+//! than the order of e, but are forgotten as fast as they react; where rates are read from them (in functionals), the factor
+//! has to be small.
 
 use super::coefficients::Tableau;
 use super::stages::Workspace;
 use crate::model::Linearised;
 use crate::ode::{Bundle, OdeState, Tolerance};
 
-/// The tolerance for the error estimate of a method with `stages` stages.
-pub fn tolerance_of_estimate(tolerance: Tolerance, stages: usize) -> Tolerance {
+/// The tolerance for the error estimate of a method with `stages` stages; `factor` as said above.
+pub fn tolerance_of_estimate(tolerance: Tolerance, stages: usize, factor: f64) -> Tolerance {
     let exponent = (stages + 1) as f64 / (2 * stages) as f64;
-    let map = |value: f64| 0.1 * value.powf(exponent);
+    let map = |value: f64| factor * value.powf(exponent);
     if tolerance.relative > 0.0 {
         let relative = map(tolerance.relative);
         Tolerance { relative, absolute: relative * (tolerance.absolute / tolerance.relative) }

@@ -1,0 +1,68 @@
+//! The last step before an event: from its start to exactly the event.
+//!
+//! Where the mass matrix vanishes at the event, the method knows the rates there only as the derivative of the polynomial
+//! through its stages, good to h^S. When functionals are carried, which may take rates there, the step is therefore split: its
+//! second part is so short that this no longer matters.
+
+use super::run::Run;
+use crate::event::{Found, read};
+use crate::integrate::{Carried, Method, Purpose};
+use crate::model::Model;
+use crate::return_map::StopReason;
+
+/// The second part of a split step, as a fraction of it.
+pub(crate) const LAST_PART: f64 = 0.01;
+/// Corrections of the second part's size.
+const CORRECTIONS: usize = 4;
+
+impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
+    Run<'_, X, M, R, N, P, Q, W, C>
+where
+    X: Method,
+    M: Model<N, P, Q>,
+    R: Carried<M, N, P, Q, W, C>,
+{
+    /// Replaces the step by one (or two) from the same start that ends at the event `found`.
+    pub(crate) fn land(&mut self, found: &Found) -> Result<(), StopReason> {
+        if !(X::RATES_BY_POLYNOMIAL && R::MEASURED) {
+            self.shorten(found.h)?;
+            self.examine_extrema();
+            return Ok(());
+        }
+        self.shorten((1.0 - LAST_PART) * found.h)?;
+        self.examine_extrema();
+        self.move_on();
+        self.shorten(LAST_PART * found.h)?;
+        self.correct(found)?;
+        self.examine_extrema();
+        Ok(())
+    }
+
+    /// One step of size `h` from where the run is. It is shorter than one that was accepted, so that this fails is all but
+    /// impossible.
+    fn shorten(&mut self, h: f64) -> Result<(), StopReason> {
+        let solved = self.attempt(h, Purpose::Land);
+        self.finish();
+        if solved.is_finite() { Ok(()) } else { Err(StopReason::StepTooSmall) }
+    }
+
+    /// The event was located on one step; on two it is elsewhere by the difference of their errors.
+    fn correct(&mut self, found: &Found) -> Result<(), StopReason> {
+        let Some(surface) = self.watched.get(found.watched).map(|w| w.surface) else {
+            return Ok(());
+        };
+        for _ in 0..CORRECTIONS {
+            let (x, k) = (&self.step.end.x, &self.step.end_rates.x);
+            let (tau, h) = (self.step.tau, self.step.h);
+            let reading = read::<M, N, P, Q>(surface, x, k, &self.segment.env(tau + h));
+            let correction = reading.value / reading.rate;
+            let smallest = 2.0 * f64::EPSILON * (tau + h);
+            // A touch has no rate to correct by.
+            if !(correction.abs() > smallest && correction.abs() < 0.1 * h) {
+                break;
+            }
+            self.shorten(h - correction)?;
+        }
+        Ok(())
+    }
+}
