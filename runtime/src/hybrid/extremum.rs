@@ -5,13 +5,13 @@
 //! re-step of state and variations to that place.
 
 use super::functionals::{Variation, Varied, along, observe};
-use super::landing::LAST_PART;
+use super::landing::stand_at;
 use super::passing::Place;
 use super::resolution::PLACES;
 use super::run::Run;
 use super::segment::Segment;
 use crate::event::root;
-use crate::integrate::{Carried, Frame, Method, Point, Purpose, StateStep, StepOf, restep, state_step};
+use crate::integrate::{Bare, Carried, Frame, Held, Method, Point, StateStep, StepOf, state_step};
 use crate::model::Model;
 use crate::sensitivity::dot;
 
@@ -78,20 +78,7 @@ where
         work: &mut X::Workspace,
         evaluations: &mut usize,
     ) -> Varied<C> {
-        let (held, mut y) = (segment.held(), *step);
-        let tolerance = segment.tolerance;
-        let mut go = |y: &mut StepOf<X, N, W, C>, h: f64| {
-            X::attempt::<M, R, N, P, Q, W, C>(&held, y, h, Purpose::Land, tolerance, work, evaluations);
-            X::finish::<M, R, N, P, Q, W, C>(&held, y, evaluations);
-        };
-        if X::RATES_BY_POLYNOMIAL {
-            // In two parts, as events are landed on.
-            go(&mut y, (1.0 - LAST_PART) * h);
-            y.move_on();
-            go(&mut y, LAST_PART * h);
-        } else {
-            go(&mut y, h);
-        }
+        let y = stand_at::<X, M, R, N, P, Q, W, C>(&segment.held(), step, h, work, evaluations);
         let (at, env) = ((&y.end.x, &y.end_rates.x), segment.env(step.tau + h));
         observe::<M, N, P, Q, C>(observable, segment.mode, at, &env, |g, c| {
             let (dx, dk) = (&y.end.dx[c], &y.end_rates.dx[c]);
@@ -99,6 +86,9 @@ where
         })
     }
 }
+
+/// Newton corrections of the place of an extremum.
+const CORRECTIONS: usize = 2;
 
 /// An observable at a point of a solution.
 #[derive(Clone, Copy, Debug)]
@@ -183,12 +173,20 @@ impl Peak {
         }
         let near = (1e-4_f64).min(0.5 * u.min(1.0 - u)).max(1e-9);
         let bend = (rate(u + near) - rate(u - near)) / (2.0 * near * step.h);
-        let h = u * step.h;
-        let (x, k) = restep::<X, M, N, P, Q>(frame, step, h, work, evaluations);
-        let exact = Point { x, k, bend: place(u).bend };
-        let correction = self.read::<M, N, P, Q>(frame, step.tau + h, &exact).1 / bend;
-        // The correction is of the size of the dense output's error; anything else means that there is no bend.
-        Some(if correction.abs() <= 1e-3 * step.h { h - correction } else { h })
+        let mut at = u * step.h;
+        // The place enters the derivatives of the extremum to first order: it has to be that of the true solution.
+        for _ in 0..CORRECTIONS {
+            let held = Held { frame, dp: &[], dstart: &[], columns: 0 };
+            let y = stand_at::<X, M, Bare, N, P, Q, 0, 0>(&held, step, at, work, evaluations);
+            let exact = Point { x: y.end.x, k: y.end_rates.x, bend: X::bend(&y, 1.0) };
+            let correction = self.read::<M, N, P, Q>(frame, step.tau + at, &exact).1 / bend;
+            // It is of the size of the dense output's error; anything else means that there is no bend.
+            if !(correction.abs() <= 1e-3 * step.h) {
+                break;
+            }
+            at -= correction;
+        }
+        Some(at)
     }
 }
 

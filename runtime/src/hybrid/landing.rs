@@ -6,12 +6,12 @@
 
 use super::run::Run;
 use crate::event::{Found, read};
-use crate::integrate::{Carried, Method, Purpose};
+use crate::integrate::{Carried, Held, Method, Purpose, StepOf};
 use crate::model::Model;
 use crate::return_map::StopReason;
 
 /// The second part of a split step, as a fraction of it.
-pub(crate) const LAST_PART: f64 = 0.01;
+const LAST_PART: f64 = 0.01;
 /// Corrections of the second part's size.
 const CORRECTIONS: usize = 4;
 
@@ -65,4 +65,33 @@ where
         }
         Ok(())
     }
+}
+
+/// The solution `h` after the start of a step that was taken, as the end of one step (or of the second of two).
+pub(crate) fn stand_at<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
+    held: &Held<'_, P, C>,
+    step: &StepOf<X, N, W, C>,
+    h: f64,
+    work: &mut X::Workspace,
+    evaluations: &mut usize,
+) -> StepOf<X, N, W, C>
+where
+    X: Method,
+    M: Model<N, P, Q>,
+    R: Carried<M, N, P, Q, W, C>,
+{
+    let mut y = *step;
+    let mut go = |y: &mut StepOf<X, N, W, C>, h: f64| {
+        let tolerance = held.frame.tolerance;
+        X::attempt::<M, R, N, P, Q, W, C>(held, y, h, Purpose::Land, tolerance, work, evaluations);
+        X::finish::<M, R, N, P, Q, W, C>(held, y, evaluations);
+    };
+    if X::RATES_BY_POLYNOMIAL {
+        go(&mut y, (1.0 - LAST_PART) * h);
+        y.move_on();
+        go(&mut y, LAST_PART * h);
+    } else {
+        go(&mut y, h);
+    }
+    y
 }

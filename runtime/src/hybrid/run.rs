@@ -17,8 +17,12 @@ const MOST_REJECTIONS: usize = 80;
 
 /// Runs of fewer steps are not looked at for stiffness.
 const UNSUSPICIOUS: usize = 100;
-/// So many steps in a row at the method's stability limit make a run stiff.
+/// Steps near the method's stability limit: the step size hovers around it.
+const NEAR_THE_LIMIT: f64 = 0.75;
+/// So many of them make a run stiff; ...
 const STIFF_STEPS: usize = 30;
+/// ... so many others in a row start the count again.
+const FREE_STEPS: usize = 6;
 
 /// By how much the largest allowed step grows after each step that was short enough.
 const CEILING_GROWTH: f64 = 1.25;
@@ -63,8 +67,10 @@ pub(crate) struct Run<
     pub(crate) deadline: f64,
     /// Events in a row that followed almost at once.
     pub(crate) hasty: usize,
-    /// Steps in a row that stability limited, not accuracy.
+    /// Steps that stability limited, not accuracy, ...
     pub(crate) limited: usize,
+    /// ... and steps in a row since that it did not limit.
+    pub(crate) unlimited: usize,
     pub(crate) kind: PhantomData<(M, R)>,
 }
 
@@ -103,6 +109,7 @@ where
             deadline: accuracy.time_limit,
             hasty: 0,
             limited: 0,
+            unlimited: 0,
             kind: PhantomData,
         }
     }
@@ -143,7 +150,7 @@ where
                 self.ceiling *= CEILING_GROWTH;
                 self.statistics.steps += 1;
                 if self.statistics.steps > UNSUSPICIOUS {
-                    self.limited = if X::stiffness(&self.step) > 1.0 { self.limited + 1 } else { 0 };
+                    self.watch_stiffness();
                 }
                 return Ok(());
             }
@@ -164,9 +171,22 @@ where
         !X::defined::<M, N, P, Q>(self.segment.frame(), self.step.tau + ahead, &x, k)
     }
 
-    /// Whether the run is stiff: stability has limited many steps in a row.
+    /// Whether the run is stiff: stability has limited many steps.
     pub(crate) fn stiff(&self) -> bool {
         self.limited >= STIFF_STEPS
+    }
+
+    /// Counts steps that stability limits; a few others in a row start the count again (as in the code DOP853 of Hairer and
+    /// Wanner).
+    fn watch_stiffness(&mut self) {
+        if X::stiffness(&self.step) > NEAR_THE_LIMIT {
+            (self.limited, self.unlimited) = (self.limited + 1, 0);
+        } else {
+            self.unlimited += 1;
+            if self.unlimited >= FREE_STEPS {
+                self.limited = 0;
+            }
+        }
     }
 
     pub(crate) fn attempt(&mut self, h: f64, purpose: Purpose) -> f64 {
