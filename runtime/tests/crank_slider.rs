@@ -1,5 +1,7 @@
 //! The crank-slider climber: through both dead centres, where the mass matrix vanishes.
 
+#![allow(clippy::unwrap_used)] // a failed expectation is a failed test
+
 mod common;
 
 use approx::assert_relative_eq;

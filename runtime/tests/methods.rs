@@ -1,5 +1,7 @@
 //! The same models by different methods; stiffness; starts that contradict the equations.
 
+#![allow(clippy::unwrap_used)] // a failed expectation is a failed test
+
 mod common;
 
 use approx::assert_abs_diff_eq;

@@ -181,7 +181,7 @@ impl Peak {
             let exact = Point { x: y.end.x, k: y.end_rates.x, bend: X::bend(&y, 1.0) };
             let correction = self.read::<M, N, P, Q>(frame, step.tau + at, &exact).1 / bend;
             // It is of the size of the dense output's error; anything else means that there is no bend.
-            if !(correction.abs() <= 1e-3 * step.h) {
+            if correction.is_nan() || correction.abs() > 1e-3 * step.h {
                 break;
             }
             at -= correction;

@@ -172,7 +172,7 @@ where
         let estimate = tolerance_of_estimate(tolerance, S, factor);
         if advance {
             let error = Self::state_error(step, &last, estimate, work);
-            if !(error <= 1.0) {
+            if error.is_nan() || error > 1.0 {
                 return error;
             }
         }
