@@ -26,6 +26,8 @@ impl<'a> Reference<'a> {
             Function::Variational(i) => format!("variational flow of {}", mode(i)),
             Function::Integrated(i) => format!("flow and integrands of {}", mode(i)),
             Function::Residual(i) => format!("residual of {}", mode(i)),
+            Function::Linearised(i) => format!("linearised residual of {}", mode(i)),
+            Function::Integrands(i) => format!("integrands of {}", mode(i)),
             Function::Switch(i) => format!("switch `{}`", self.info.switches.get(i).unwrap_or(&"?")),
             Function::Guard(i) => format!("guard of {}", transition(i)),
             Function::Reset(i) => format!("reset of {}", transition(i)),
@@ -43,7 +45,8 @@ impl<'a> Reference<'a> {
         let flow = |i: usize| self.spec.modes.get(i).map_or_else(Vec::new, |m| m.flow.clone());
         let section = self.spec.section.as_ref();
         match function {
-            Function::Flow(i) | Function::Variational(i) | Function::Residual(i) => flow(i),
+            Function::Flow(i) | Function::Variational(i) | Function::Residual(i) | Function::Linearised(i) => flow(i),
+            Function::Integrands(_) => self.integrands(),
             Function::Integrated(i) => [flow(i), self.integrands()].concat(),
             Function::Switch(i) => self.spec.switches.get(i).map(|s| s.expr).into_iter().collect(),
             Function::Guard(i) => self.spec.transitions.get(i).map(|t| t.guard).into_iter().collect(),
@@ -55,6 +58,19 @@ impl<'a> Reference<'a> {
             Function::Observable { index, .. } => self.functional(|f| observable(f) == Some(index)),
             Function::Measures => self.spec.measures.iter().map(|m| m.expr).collect(),
         }
+    }
+
+    /// What stands in for the rates in a function that does not take them: the flow of its mode.
+    fn rates(&self, function: Function) -> &[NodeId] {
+        let explicit = |mode: usize| self.spec.modes.get(mode).filter(|m| m.mass.is_none()).map(|m| m.flow.as_slice());
+        let before = |i: usize| self.spec.transitions.get(i).and_then(|t| explicit(t.from));
+        let flow = match function {
+            Function::Integrated(mode) => explicit(mode),
+            Function::Integrands(mode) | Function::Observable { mode, .. } if self.info.explicit => explicit(mode),
+            Function::Guard(i) | Function::When(i) | Function::Reset(i) | Function::Memory(i) => before(i),
+            _ => None,
+        };
+        flow.unwrap_or(&[])
     }
 
     fn functional(&self, wanted: impl Fn(Functional) -> bool) -> Vec<NodeId> {
@@ -74,23 +90,39 @@ impl<'a> Reference<'a> {
     /// The function's value.
     pub(super) fn value(&self, function: Function, at: &Point<'_>) -> Vec<f64> {
         let at = environment(at);
+        let flow: Vec<f64> = self.rates(function).iter().map(|&f| value(&self.spec.graph, f, &at)).collect();
+        let at = if flow.is_empty() { at } else { Environment { rates: &flow, ..at } };
         let values: Vec<f64> = self.roots(function).iter().map(|&root| value(&self.spec.graph, root, &at)).collect();
         match function {
             // Without `when` a transition is always enabled.
             Function::When(_) if values.is_empty() => vec![1.0],
-            Function::Residual(mode) => self.residual(mode, &at, values, &|node| value(&self.spec.graph, node, &at)),
+            Function::Residual(mode) | Function::Linearised(mode) => {
+                self.residual(mode, &at, values, &|node| value(&self.spec.graph, node, &at))
+            }
             _ => values,
         }
     }
 
     /// The function's derivative, columns one after the other.
     pub(super) fn derivative(&self, function: Function, variable: Variable, at: &Point<'_>) -> Vec<f64> {
-        let at = environment(at);
+        let (at, rates) = (environment(at), self.rates(function));
+        let flow: Vec<f64> = rates.iter().map(|&f| value(&self.spec.graph, f, &at)).collect();
+        let at = if flow.is_empty() { at } else { Environment { rates: &flow, ..at } };
         let column = |symbol: Symbol| {
             let of = |node: NodeId| derivative(&self.spec.graph, node, &at, symbol);
-            let values = self.roots(function).iter().map(|&root| of(root)).collect();
+            let through_rates = |node: NodeId| -> f64 {
+                let by_rate = |j: usize| derivative(&self.spec.graph, node, &at, Symbol::Rate(j));
+                rates.iter().enumerate().map(|(j, &f)| product(by_rate(j), of(f))).sum()
+            };
+            let whole = |&root: &NodeId| match symbol {
+                Symbol::Rate(_) if !rates.is_empty() => 0.0,
+                _ => of(root) + through_rates(root),
+            };
+            let values = self.roots(function).iter().map(whole).collect();
             match function {
-                Function::Residual(mode) => self.residual_slope(mode, symbol, &at, values, &of),
+                Function::Residual(mode) | Function::Linearised(mode) => {
+                    self.residual_slope(mode, symbol, &at, values, &of)
+                }
                 _ => values,
             }
         };
@@ -141,6 +173,11 @@ impl<'a> Reference<'a> {
         };
         df.into_iter().enumerate().map(|(i, df)| slope(i) - df).collect()
     }
+}
+
+/// A product in which nothing comes of what does not occur, be it infinite.
+fn product(factor: f64, other: f64) -> f64 {
+    if factor == 0.0 { 0.0 } else { factor * other }
 }
 
 fn observable(functional: Functional) -> Option<usize> {

@@ -150,6 +150,37 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
             _ => nan_residual_jacobian(),
         }
     }
+    fn residual_linearised<S: scalar::Scalar>(
+        mode: usize,
+        x: &[S; STATES],
+        k: &[S; STATES],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> model::Linearised<S, STATES> {
+        match mode {
+            0 => linearised_run(x, k, env),
+            _ => nan_linearised(),
+        }
+    }
+    fn integrands<S: scalar::Scalar>(
+        mode: usize,
+        x: &[S; STATES],
+        k: &[S; STATES],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> [S; INTEGRALS] {
+        let _ = (mode, x, k, env);
+        [nan(); INTEGRALS]
+    }
+    #[inline]
+    fn integrands_along<S: scalar::Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; STATES],
+        k: &[S; STATES],
+        along: &model::Directions<'_, S, STATES, PARAMETERS, C>,
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> ([S; INTEGRALS], [[S; INTEGRALS]; C]) {
+        let _ = (mode, x, k, along, env);
+        ([nan(); INTEGRALS], [[nan(); INTEGRALS]; C])
+    }
     fn switch<S: scalar::Scalar>(
         index: usize,
         x: &[S; STATES],
@@ -263,19 +294,21 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
         index: usize,
         mode: usize,
         x: &[S; STATES],
+        k: &[S; STATES],
         env: &model::Env<'_, S, PARAMETERS>,
     ) -> S {
-        let _ = (index, mode, x, env);
+        let _ = (index, mode, x, k, env);
         nan()
     }
     fn observable_gradient<S: scalar::Scalar>(
         index: usize,
         mode: usize,
         x: &[S; STATES],
+        k: &[S; STATES],
         env: &model::Env<'_, S, PARAMETERS>,
-    ) -> model::Gradient<S, STATES, PARAMETERS> {
-        let _ = (index, mode, x, env);
-        nan_gradient()
+    ) -> model::RateGradient<S, STATES, PARAMETERS> {
+        let _ = (index, mode, x, k, env);
+        nan_rate_gradient()
     }
     fn measures<S: scalar::Scalar>(
         functionals: &[S],
@@ -410,6 +443,62 @@ fn d_residual_run<S: scalar::Scalar>(
     }
 }
 
+/// Residual F = M k - f of mode `run` with its derivatives by state and rate, by columns.
+///
+/// 11 additions, 15 multiplications, 2 function calls.
+fn linearised_run<S: scalar::Scalar>(
+    x: &[S; STATES],
+    k: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> model::Linearised<S, STATES> {
+    let &[] = env.memory else { return nan_linearised() };
+    let &[] = env.branch else { return nan_linearised() };
+    let &[p_m, p_l] = env.p;
+    let &[_, x_w, x_phi] = x;
+    let &[k_v, k_w, k_phi] = k;
+    let v0 = p_m * k_v;
+    let v1 = x_phi.cos();
+    let v2 = p_l * v1;
+    let v3 = v2 * k_w;
+    let v4 = v0 + v3;
+    let v5 = x_phi.sin();
+    let v6 = x_w * x_w;
+    let v7 = v5 * v6;
+    let v8 = v7 * p_l;
+    let v9 = v4 - v8;
+    let v10 = v1 * k_v;
+    let v11 = p_l * k_w;
+    let v12 = v10 + v11;
+    let v13 = v12 + v1;
+    let v14 = k_phi - x_w;
+    let v15 = x_w + x_w;
+    let v16 = v5 * v15;
+    let v17 = p_l * v16;
+    let v18 = -v17;
+    let v19 = p_l * v5;
+    let v20 = k_w * v19;
+    let v21 = v6 * v1;
+    let v22 = p_l * v21;
+    let v23 = v20 + v22;
+    let v24 = -v23;
+    let v25 = k_v * v5;
+    let v26 = v25 + v5;
+    let v27 = -v26;
+    model::Linearised {
+        value: [v9, v13, v14],
+        dx: [
+            [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+            [v18, S::constant(0.0), S::constant(-1.0)],
+            [v24, v27, S::constant(0.0)],
+        ],
+        dk: [
+            [p_m, v1, S::constant(0.0)],
+            [v2, p_l, S::constant(0.0)],
+            [S::constant(0.0), S::constant(0.0), S::constant(1.0)],
+        ],
+    }
+}
+
 /// Derivatives of the 0 measures: by the 0 functionals, one row a measure, and by the parameters.
 ///
 /// No operations.
@@ -442,6 +531,18 @@ fn nan_gradient<S: scalar::Scalar>() -> model::Gradient<S, STATES, PARAMETERS> {
     }
 }
 
+/// A gradient by state and rate of NaN.
+fn nan_rate_gradient<S: scalar::Scalar>() -> model::RateGradient<S, STATES, PARAMETERS> {
+    model::RateGradient {
+        value: nan(),
+        dx: [nan(); STATES],
+        dk: [nan(); STATES],
+        dp: [nan(); PARAMETERS],
+        dtau: nan(),
+        dt: nan(),
+    }
+}
+
 /// A Jacobian of NaN.
 fn nan_jacobian<S: scalar::Scalar>() -> model::Jacobian<S, STATES, PARAMETERS> {
     model::Jacobian {
@@ -450,6 +551,15 @@ fn nan_jacobian<S: scalar::Scalar>() -> model::Jacobian<S, STATES, PARAMETERS> {
         dp: [nan_state(); PARAMETERS],
         dtau: nan_state(),
         dt: nan_state(),
+    }
+}
+
+/// A linearised residual of NaN.
+fn nan_linearised<S: scalar::Scalar>() -> model::Linearised<S, STATES> {
+    model::Linearised {
+        value: nan_state(),
+        dx: [nan_state(); STATES],
+        dk: [nan_state(); STATES],
     }
 }
 

@@ -82,12 +82,14 @@ static INFO: model::ModelInfo = model::ModelInfo {
             from: 0,
             to: 1,
             direction: model::Direction::Rising,
+            also_zero: &[],
         },
         model::TransitionInfo {
             name: "back",
             from: 1,
             to: 0,
             direction: model::Direction::Either,
+            also_zero: &[],
         },
     ],
     switches: &["x >= 0", "max(x, Y)", "min(x, a)", "Y >= a"],
@@ -224,6 +226,42 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
             _ => nan_residual_jacobian(),
         }
     }
+    fn residual_linearised<S: scalar::Scalar>(
+        mode: usize,
+        x: &[S; STATES],
+        k: &[S; STATES],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> model::Linearised<S, STATES> {
+        match mode {
+            0 => linearised_first(x, k, env),
+            1 => linearised_second(x, k, env),
+            _ => nan_linearised(),
+        }
+    }
+    fn integrands<S: scalar::Scalar>(
+        mode: usize,
+        x: &[S; STATES],
+        _k: &[S; STATES],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> [S; INTEGRALS] {
+        match mode {
+            0 | 1 => integrands(x, env),
+            _ => [nan(); INTEGRALS],
+        }
+    }
+    #[inline]
+    fn integrands_along<S: scalar::Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; STATES],
+        _k: &[S; STATES],
+        along: &model::Directions<'_, S, STATES, PARAMETERS, C>,
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> ([S; INTEGRALS], [[S; INTEGRALS]; C]) {
+        match mode {
+            0 | 1 => tangent_integrands(x, along, env),
+            _ => ([nan(); INTEGRALS], [[nan(); INTEGRALS]; C]),
+        }
+    }
     fn switch<S: scalar::Scalar>(
         index: usize,
         x: &[S; STATES],
@@ -345,6 +383,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
         index: usize,
         mode: usize,
         x: &[S; STATES],
+        _k: &[S; STATES],
         env: &model::Env<'_, S, PARAMETERS>,
     ) -> S {
         match (index, mode) {
@@ -360,15 +399,16 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
         index: usize,
         mode: usize,
         x: &[S; STATES],
+        _k: &[S; STATES],
         env: &model::Env<'_, S, PARAMETERS>,
-    ) -> model::Gradient<S, STATES, PARAMETERS> {
+    ) -> model::RateGradient<S, STATES, PARAMETERS> {
         match (index, mode) {
             (0, 0 | 1) => d_observable_0(x, env),
             (1, 0 | 1) => d_observable_1(x, env),
             (2, 0 | 1) => d_observable_2(x, env),
             (3, 0) => d_observable_3_first(x, env),
             (3, 1) => d_observable_3_second(x, env),
-            _ => nan_gradient(),
+            _ => nan_rate_gradient(),
         }
     }
     fn measures<S: scalar::Scalar>(
@@ -927,114 +967,6 @@ fn symmetry<S: scalar::Scalar>(x: &[S; STATES], p: &[S; PARAMETERS]) -> [S; STAT
     [v1, v2, v5]
 }
 
-/// Observable 0.
-///
-/// 3 additions, 2 multiplications, 1 function call, 1 selection.
-fn observable_0<S: scalar::Scalar>(
-    x: &[S; STATES],
-    env: &model::Env<'_, S, PARAMETERS>,
-) -> S {
-    let &[_, _] = env.memory else { return nan() };
-    let &[b0, _, _, _] = env.branch else { return nan() };
-    let &[x_x, _, _] = x;
-    let v0 = x_x.sqrt();
-    let v1 = x_x * v0;
-    let v2 = v0 + v1;
-    let v3 = x_x * x_x;
-    let v4 = -v3;
-    let v5 = S::select(b0, v2, v4);
-    let v6 = x_x + v5;
-    v6
-}
-
-/// Observable 1.
-///
-/// No operations.
-fn observable_1<S: scalar::Scalar>(
-    x: &[S; STATES],
-    env: &model::Env<'_, S, PARAMETERS>,
-) -> S {
-    let &[_, _] = env.memory else { return nan() };
-    let &[_, _, _, _] = env.branch else { return nan() };
-    let &[x_x, _, _] = x;
-    x_x
-}
-
-/// Observable 2.
-///
-/// No operations.
-fn observable_2<S: scalar::Scalar>(
-    x: &[S; STATES],
-    env: &model::Env<'_, S, PARAMETERS>,
-) -> S {
-    let &[_, _] = env.memory else { return nan() };
-    let &[_, _, _, _] = env.branch else { return nan() };
-    let &[_, x_Y, _] = x;
-    x_Y
-}
-
-/// Observable 3 in mode `first`.
-///
-/// 14 additions, 5 multiplications, 3 divisions, 13 function calls.
-fn observable_3_first<S: scalar::Scalar>(
-    x: &[S; STATES],
-    env: &model::Env<'_, S, PARAMETERS>,
-) -> S {
-    let &[_, _] = env.memory else { return nan() };
-    let &[_, _, _, _] = env.branch else { return nan() };
-    let &[p_a, p_b, _, _] = env.p;
-    let &[x_x, x_Y, x_self] = x;
-    let v0 = x_x.sin();
-    let v1 = x_Y.cos();
-    let v2 = p_a * x_x;
-    let v3 = v2.tan();
-    let v4 = v1 * v3;
-    let v5 = v0 + v4;
-    let v6 = v2 / S::constant(4.0);
-    let v7 = v6.asin();
-    let v8 = v5 + v7;
-    let v9 = p_a * x_Y;
-    let v10 = v9 / S::constant(4.0);
-    let v11 = v10.acos();
-    let v12 = v8 - v11;
-    let v13 = p_b * x_x;
-    let v14 = v13.atan();
-    let v15 = v12 + v14;
-    let v16 = x_x + S::constant(2.0);
-    let v17 = x_Y + S::constant(3.0);
-    let v18 = v16.atan2(v17);
-    let v19 = v15 + v18;
-    let v20 = v2.sinh();
-    let v21 = v9.cosh();
-    let v22 = v20 + v21;
-    let v23 = x_self.tanh();
-    let v24 = v22 + v23;
-    let v25 = v13.asinh();
-    let v26 = v24 + v25;
-    let v27 = x_x * x_x;
-    let v28 = S::constant(2.0) + v27;
-    let v29 = v28.acosh();
-    let v30 = v26 + v29;
-    let v31 = v6.atanh();
-    let v32 = v30 + v31;
-    let v33 = v32 / S::constant(10.0);
-    let v34 = v19 + v33;
-    v34
-}
-
-/// Observable 3 in mode `second`.
-///
-/// No operations.
-fn observable_3_second<S: scalar::Scalar>(
-    x: &[S; STATES],
-    env: &model::Env<'_, S, PARAMETERS>,
-) -> S {
-    let &[_, _] = env.memory else { return nan() };
-    let &[_, _, _, _] = env.branch else { return nan() };
-    let &[_, x_Y, _] = x;
-    x_Y
-}
-
 /// Measures from the values of the functionals.
 /// Measures: area [s], top [1], first_x [1], average [1], slowest [s].
 ///
@@ -1547,6 +1479,223 @@ fn d_residual_first<S: scalar::Scalar>(
     }
 }
 
+/// Residual F = M k - f of mode `first` with its derivatives by state and rate, by columns.
+///
+/// 78 additions, 40 multiplications, 23 divisions, 33 function calls, 13 selections.
+fn linearised_first<S: scalar::Scalar>(
+    x: &[S; STATES],
+    k: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> model::Linearised<S, STATES> {
+    let &[n_n, _] = env.memory else { return nan_linearised() };
+    let &[b0, b1, b2, b3] = env.branch else { return nan_linearised() };
+    let &[p_a, p_b, p_c, p_type] = env.p;
+    let tau = env.tau;
+    let t = env.t;
+    let &[x_x, x_Y, x_self] = x;
+    let &[k_x, k_Y, k_self] = k;
+    let v0 = x_x.sin();
+    let v1 = x_Y.cos();
+    let v2 = p_a * x_x;
+    let v3 = v2.tan();
+    let v4 = v1 * v3;
+    let v5 = v0 + v4;
+    let v6 = v2 / S::constant(4.0);
+    let v7 = v6.asin();
+    let v8 = v5 + v7;
+    let v9 = p_a * x_Y;
+    let v10 = v9 / S::constant(4.0);
+    let v11 = v10.acos();
+    let v12 = v8 - v11;
+    let v13 = p_b * x_x;
+    let v14 = v13.atan();
+    let v15 = v12 + v14;
+    let v16 = x_x + S::constant(2.0);
+    let v17 = x_Y + S::constant(3.0);
+    let v18 = v16.atan2(v17);
+    let v19 = v15 + v18;
+    let v20 = v2.sinh();
+    let v21 = v9.cosh();
+    let v22 = v20 + v21;
+    let v23 = x_self.tanh();
+    let v24 = v22 + v23;
+    let v25 = v13.asinh();
+    let v26 = v24 + v25;
+    let v27 = x_x * x_x;
+    let v28 = S::constant(2.0) + v27;
+    let v29 = v28.acosh();
+    let v30 = v26 + v29;
+    let v31 = v6.atanh();
+    let v32 = v30 + v31;
+    let v33 = v32 / S::constant(10.0);
+    let v34 = v19 + v33;
+    let v35 = k_x - v34;
+    let v36 = x_x * v27;
+    let v37 = v27 + v36;
+    let v38 = x_x + S::constant(5.0);
+    let v39 = v38 * v38;
+    let v40 = S::constant(1.0) / v39;
+    let v41 = v40 / S::constant(100.0);
+    let v42 = v37 + v41;
+    let v43 = v27 + S::constant(1.0);
+    let v44 = v43.sqrt();
+    let v45 = v42 + v44;
+    let v46 = v43.pow(S::constant(2.5));
+    let v47 = v45 + v46;
+    let v48 = v43.pow(p_c);
+    let v49 = v47 + v48;
+    let v50 = S::constant(1.0) / v44;
+    let v51 = v49 + v50;
+    let v52 = v51 / S::constant(10.0);
+    let v53 = -v27;
+    let v54 = v53.exp();
+    let v55 = S::constant(1.0) + v27;
+    let v56 = v55 + p_type;
+    let v57 = v56.ln();
+    let v58 = v54 + v57;
+    let v59 = S::constant(3.0) * t;
+    let v60 = v59.cos();
+    let v61 = v58 * v60;
+    let v62 = v52 + v61;
+    let v63 = v62 - x_x;
+    let v64 = k_Y - v63;
+    let v65 = x_x.sqrt();
+    let v66 = x_x * v65;
+    let v67 = v65 + v66;
+    let v68 = S::select(b0, v67, v53);
+    let v69 = x_x * x_Y;
+    let v70 = S::select(b0, v69, v0);
+    let v71 = S::select(b1, x_x, x_Y);
+    let v72 = S::select(b2, x_x, p_a);
+    let v73 = v71 + v72;
+    let v74 = S::select(b3, v70, v73);
+    let v75 = v68 + v74;
+    let v76 = S::constant(-1.0).pow(n_n);
+    let v77 = v76 * tau;
+    let v78 = v75 + v77;
+    let v79 = k_self - v78;
+    let v80 = x_x.cos();
+    let v81 = v2.cos();
+    let v82 = v81 * v81;
+    let v83 = p_a / v82;
+    let v84 = v1 * v83;
+    let v85 = v80 + v84;
+    let v86 = S::constant(0.25) * p_a;
+    let v87 = v6 * v6;
+    let v88 = S::constant(1.0) - v87;
+    let v89 = v88.sqrt();
+    let v90 = v86 / v89;
+    let v91 = v85 + v90;
+    let v92 = v13 * v13;
+    let v93 = S::constant(1.0) + v92;
+    let v94 = p_b / v93;
+    let v95 = v91 + v94;
+    let v96 = v16 * v16;
+    let v97 = v17 * v17;
+    let v98 = v96 + v97;
+    let v99 = v17 / v98;
+    let v100 = v95 + v99;
+    let v101 = v2.cosh();
+    let v102 = v101 * p_a;
+    let v103 = v93.sqrt();
+    let v104 = p_b / v103;
+    let v105 = v102 + v104;
+    let v106 = v28 - S::constant(1.0);
+    let v107 = v106.sqrt();
+    let v108 = S::constant(1.0) / v107;
+    let v109 = v28 + S::constant(1.0);
+    let v110 = v109.sqrt();
+    let v111 = v108 / v110;
+    let v112 = x_x + x_x;
+    let v113 = v111 * v112;
+    let v114 = v105 + v113;
+    let v115 = v86 / v88;
+    let v116 = v114 + v115;
+    let v117 = S::constant(0.1) * v116;
+    let v118 = v100 + v117;
+    let v119 = -v118;
+    let v120 = x_x * v112;
+    let v121 = v27 + v120;
+    let v122 = v112 + v121;
+    let v123 = v40 / v39;
+    let v124 = v38 + v38;
+    let v125 = v123 * v124;
+    let v126 = S::constant(0.01) * v125;
+    let v127 = v122 - v126;
+    let v128 = x_x / v44;
+    let v129 = v127 + v128;
+    let v130 = v43.pow(S::constant(1.5));
+    let v131 = S::constant(2.5) * v130;
+    let v132 = v131 * v112;
+    let v133 = v129 + v132;
+    let v134 = p_c - S::constant(1.0);
+    let v135 = v43.pow(v134);
+    let v136 = p_c * v135;
+    let v137 = v136 * v112;
+    let v138 = v133 + v137;
+    let v139 = v50 / v44;
+    let v140 = v139 * v128;
+    let v141 = v138 - v140;
+    let v142 = S::constant(0.1) * v141;
+    let v143 = v112 / v56;
+    let v144 = v54 * v112;
+    let v145 = v143 - v144;
+    let v146 = v60 * v145;
+    let v147 = v142 + v146;
+    let v148 = v147 + S::constant(-1.0);
+    let v149 = -v148;
+    let v150 = v65 + v65;
+    let v151 = S::constant(1.0) / v150;
+    let v152 = x_x / v150;
+    let v153 = v65 + v152;
+    let v154 = v151 + v153;
+    let v155 = -v112;
+    let v156 = S::select(b0, v154, v155);
+    let v157 = S::select(b0, x_Y, v80);
+    let v158 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v159 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v160 = v158 + v159;
+    let v161 = S::select(b3, v157, v160);
+    let v162 = v156 + v161;
+    let v163 = -v162;
+    let v164 = v9.sinh();
+    let v165 = v164 * p_a;
+    let v166 = S::constant(0.1) * v165;
+    let v167 = x_Y.sin();
+    let v168 = v3 * v167;
+    let v169 = v10 * v10;
+    let v170 = S::constant(1.0) - v169;
+    let v171 = v170.sqrt();
+    let v172 = S::constant(-1.0) / v171;
+    let v173 = v172 * v86;
+    let v174 = v168 + v173;
+    let v175 = v16 / v98;
+    let v176 = v174 + v175;
+    let v177 = v166 - v176;
+    let v178 = -v177;
+    let v179 = S::select(b0, x_x, S::constant(0.0));
+    let v180 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    let v181 = S::select(b3, v179, v180);
+    let v182 = -v181;
+    let v183 = v23 * v23;
+    let v184 = S::constant(1.0) - v183;
+    let v185 = S::constant(0.1) * v184;
+    let v186 = -v185;
+    model::Linearised {
+        value: [v35, v64, v79],
+        dx: [
+            [v119, v149, v163],
+            [v178, S::constant(0.0), v182],
+            [v186, S::constant(0.0), S::constant(0.0)],
+        ],
+        dk: [
+            [S::constant(1.0), S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(1.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(0.0), S::constant(1.0)],
+        ],
+    }
+}
+
 /// State derivative f of mode `second` with all first derivatives.
 /// Components: x, Y, self; derivatives by columns.
 ///
@@ -1616,6 +1765,39 @@ fn d_residual_second<S: scalar::Scalar>(
         ],
         dtau: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dt: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+    }
+}
+
+/// Residual F = M k - f of mode `second` with its derivatives by state and rate, by columns.
+///
+/// 5 additions, 1 multiplication.
+fn linearised_second<S: scalar::Scalar>(
+    x: &[S; STATES],
+    k: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> model::Linearised<S, STATES> {
+    let &[_, _] = env.memory else { return nan_linearised() };
+    let &[_, _, _, _] = env.branch else { return nan_linearised() };
+    let &[x_x, x_Y, x_self] = x;
+    let &[k_x, k_Y, k_self] = k;
+    let v0 = k_x - x_Y;
+    let v1 = k_Y + x_x;
+    let v2 = x_Y * x_self;
+    let v3 = k_self - v2;
+    let v4 = -x_self;
+    let v5 = -x_Y;
+    model::Linearised {
+        value: [v0, v1, v3],
+        dx: [
+            [S::constant(0.0), S::constant(1.0), S::constant(0.0)],
+            [S::constant(-1.0), S::constant(0.0), v4],
+            [S::constant(0.0), S::constant(0.0), v5],
+        ],
+        dk: [
+            [S::constant(1.0), S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(1.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(0.0), S::constant(1.0)],
+        ],
     }
 }
 
@@ -1914,15 +2096,123 @@ fn d_symmetry<S: scalar::Scalar>(
     }
 }
 
+/// Derivatives of the 5 measures: by the 7 functionals, one row a measure, and by the parameters.
+///
+/// 5 additions, 3 multiplications, 7 divisions.
+fn d_measures<S: scalar::Scalar>(
+    functionals: &[S],
+    p: &[S; PARAMETERS],
+) -> ([S; 35], [[S; PARAMETERS]; 5]) {
+    let &[f0, _, f2, f3, f4, f5, _] = functionals else {
+        return ([nan(); 35], [[nan(); PARAMETERS]; 5])
+    };
+    let &[p_a, _, _, _] = p;
+    let v0 = f3 * f3;
+    let v1 = p_a + v0;
+    let v2 = f2 / v1;
+    let v3 = f4 * f5;
+    let v4 = v3 / f0;
+    let v5 = v4 / f0;
+    let v6 = -v5;
+    let v7 = S::constant(1.0) / v1;
+    let v8 = v2 / v1;
+    let v9 = f3 + f3;
+    let v10 = v8 * v9;
+    let v11 = -v10;
+    let v12 = f5 / f0;
+    let v13 = f4 / f0;
+    let v14 = -v8;
+    (
+        [
+            S::constant(1.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(1.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            v7,
+            v11,
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            v6,
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            v12,
+            v13,
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(0.0),
+            S::constant(1.0),
+        ],
+        [
+            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+            [v14, S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
+        ],
+    )
+}
+
+/// The integrands.
+///
+/// 1 multiplication.
+fn integrands<S: scalar::Scalar>(
+    x: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> [S; INTEGRALS] {
+    let &[_, _] = env.memory else { return [nan(); INTEGRALS] };
+    let &[_, _, _, _] = env.branch else { return [nan(); INTEGRALS] };
+    let &[x_x, x_Y, _] = x;
+    let v0 = x_x * x_Y;
+    [v0]
+}
+
+/// Observable 0.
+///
+/// 3 additions, 2 multiplications, 1 function call, 1 selection.
+fn observable_0<S: scalar::Scalar>(
+    x: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> S {
+    let &[_, _] = env.memory else { return nan() };
+    let &[b0, _, _, _] = env.branch else { return nan() };
+    let &[x_x, _, _] = x;
+    let v0 = x_x.sqrt();
+    let v1 = x_x * v0;
+    let v2 = v0 + v1;
+    let v3 = x_x * x_x;
+    let v4 = -v3;
+    let v5 = S::select(b0, v2, v4);
+    let v6 = x_x + v5;
+    v6
+}
+
 /// Observable 0 with all first derivatives.
 ///
 /// 9 additions, 2 multiplications, 2 divisions, 1 function call, 2 selections.
 fn d_observable_0<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
-) -> model::Gradient<S, STATES, PARAMETERS> {
-    let &[_, _] = env.memory else { return nan_gradient() };
-    let &[b0, _, _, _] = env.branch else { return nan_gradient() };
+) -> model::RateGradient<S, STATES, PARAMETERS> {
+    let &[_, _] = env.memory else { return nan_rate_gradient() };
+    let &[b0, _, _, _] = env.branch else { return nan_rate_gradient() };
     let &[x_x, _, _] = x;
     let v0 = x_x.sqrt();
     let v1 = x_x * v0;
@@ -1940,13 +2230,27 @@ fn d_observable_0<S: scalar::Scalar>(
     let v13 = -v12;
     let v14 = S::select(b0, v11, v13);
     let v15 = S::constant(1.0) + v14;
-    model::Gradient {
+    model::RateGradient {
         value: v6,
         dx: [v15, S::constant(0.0), S::constant(0.0)],
+        dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dtau: S::constant(0.0),
         dt: S::constant(0.0),
     }
+}
+
+/// Observable 1.
+///
+/// No operations.
+fn observable_1<S: scalar::Scalar>(
+    x: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> S {
+    let &[_, _] = env.memory else { return nan() };
+    let &[_, _, _, _] = env.branch else { return nan() };
+    let &[x_x, _, _] = x;
+    x_x
 }
 
 /// Observable 1 with all first derivatives.
@@ -1955,17 +2259,31 @@ fn d_observable_0<S: scalar::Scalar>(
 fn d_observable_1<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
-) -> model::Gradient<S, STATES, PARAMETERS> {
-    let &[_, _] = env.memory else { return nan_gradient() };
-    let &[_, _, _, _] = env.branch else { return nan_gradient() };
+) -> model::RateGradient<S, STATES, PARAMETERS> {
+    let &[_, _] = env.memory else { return nan_rate_gradient() };
+    let &[_, _, _, _] = env.branch else { return nan_rate_gradient() };
     let &[x_x, _, _] = x;
-    model::Gradient {
+    model::RateGradient {
         value: x_x,
         dx: [S::constant(1.0), S::constant(0.0), S::constant(0.0)],
+        dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dtau: S::constant(0.0),
         dt: S::constant(0.0),
     }
+}
+
+/// Observable 2.
+///
+/// No operations.
+fn observable_2<S: scalar::Scalar>(
+    x: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> S {
+    let &[_, _] = env.memory else { return nan() };
+    let &[_, _, _, _] = env.branch else { return nan() };
+    let &[_, x_Y, _] = x;
+    x_Y
 }
 
 /// Observable 2 with all first derivatives.
@@ -1974,17 +2292,67 @@ fn d_observable_1<S: scalar::Scalar>(
 fn d_observable_2<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
-) -> model::Gradient<S, STATES, PARAMETERS> {
-    let &[_, _] = env.memory else { return nan_gradient() };
-    let &[_, _, _, _] = env.branch else { return nan_gradient() };
+) -> model::RateGradient<S, STATES, PARAMETERS> {
+    let &[_, _] = env.memory else { return nan_rate_gradient() };
+    let &[_, _, _, _] = env.branch else { return nan_rate_gradient() };
     let &[_, x_Y, _] = x;
-    model::Gradient {
+    model::RateGradient {
         value: x_Y,
         dx: [S::constant(0.0), S::constant(1.0), S::constant(0.0)],
+        dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dtau: S::constant(0.0),
         dt: S::constant(0.0),
     }
+}
+
+/// Observable 3 in mode `first`.
+///
+/// 14 additions, 5 multiplications, 3 divisions, 13 function calls.
+fn observable_3_first<S: scalar::Scalar>(
+    x: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> S {
+    let &[_, _] = env.memory else { return nan() };
+    let &[_, _, _, _] = env.branch else { return nan() };
+    let &[p_a, p_b, _, _] = env.p;
+    let &[x_x, x_Y, x_self] = x;
+    let v0 = x_x.sin();
+    let v1 = x_Y.cos();
+    let v2 = p_a * x_x;
+    let v3 = v2.tan();
+    let v4 = v1 * v3;
+    let v5 = v0 + v4;
+    let v6 = v2 / S::constant(4.0);
+    let v7 = v6.asin();
+    let v8 = v5 + v7;
+    let v9 = p_a * x_Y;
+    let v10 = v9 / S::constant(4.0);
+    let v11 = v10.acos();
+    let v12 = v8 - v11;
+    let v13 = p_b * x_x;
+    let v14 = v13.atan();
+    let v15 = v12 + v14;
+    let v16 = x_x + S::constant(2.0);
+    let v17 = x_Y + S::constant(3.0);
+    let v18 = v16.atan2(v17);
+    let v19 = v15 + v18;
+    let v20 = v2.sinh();
+    let v21 = v9.cosh();
+    let v22 = v20 + v21;
+    let v23 = x_self.tanh();
+    let v24 = v22 + v23;
+    let v25 = v13.asinh();
+    let v26 = v24 + v25;
+    let v27 = x_x * x_x;
+    let v28 = S::constant(2.0) + v27;
+    let v29 = v28.acosh();
+    let v30 = v26 + v29;
+    let v31 = v6.atanh();
+    let v32 = v30 + v31;
+    let v33 = v32 / S::constant(10.0);
+    let v34 = v19 + v33;
+    v34
 }
 
 /// Observable 3 in mode `first` with all first derivatives.
@@ -1993,9 +2361,9 @@ fn d_observable_2<S: scalar::Scalar>(
 fn d_observable_3_first<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
-) -> model::Gradient<S, STATES, PARAMETERS> {
-    let &[_, _] = env.memory else { return nan_gradient() };
-    let &[_, _, _, _] = env.branch else { return nan_gradient() };
+) -> model::RateGradient<S, STATES, PARAMETERS> {
+    let &[_, _] = env.memory else { return nan_rate_gradient() };
+    let &[_, _, _, _] = env.branch else { return nan_rate_gradient() };
     let &[p_a, p_b, _, _] = env.p;
     let &[x_x, x_Y, x_self] = x;
     let v0 = x_x.sin();
@@ -2108,13 +2476,27 @@ fn d_observable_3_first<S: scalar::Scalar>(
     let v107 = x_x / v58;
     let v108 = S::constant(0.1) * v107;
     let v109 = v106 + v108;
-    model::Gradient {
+    model::RateGradient {
         value: v34,
         dx: [v73, v87, v90],
+        dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [v105, v109, S::constant(0.0), S::constant(0.0)],
         dtau: S::constant(0.0),
         dt: S::constant(0.0),
     }
+}
+
+/// Observable 3 in mode `second`.
+///
+/// No operations.
+fn observable_3_second<S: scalar::Scalar>(
+    x: &[S; STATES],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> S {
+    let &[_, _] = env.memory else { return nan() };
+    let &[_, _, _, _] = env.branch else { return nan() };
+    let &[_, x_Y, _] = x;
+    x_Y
 }
 
 /// Observable 3 in mode `second` with all first derivatives.
@@ -2123,91 +2505,18 @@ fn d_observable_3_first<S: scalar::Scalar>(
 fn d_observable_3_second<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
-) -> model::Gradient<S, STATES, PARAMETERS> {
-    let &[_, _] = env.memory else { return nan_gradient() };
-    let &[_, _, _, _] = env.branch else { return nan_gradient() };
+) -> model::RateGradient<S, STATES, PARAMETERS> {
+    let &[_, _] = env.memory else { return nan_rate_gradient() };
+    let &[_, _, _, _] = env.branch else { return nan_rate_gradient() };
     let &[_, x_Y, _] = x;
-    model::Gradient {
+    model::RateGradient {
         value: x_Y,
         dx: [S::constant(0.0), S::constant(1.0), S::constant(0.0)],
+        dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dtau: S::constant(0.0),
         dt: S::constant(0.0),
     }
-}
-
-/// Derivatives of the 5 measures: by the 7 functionals, one row a measure, and by the parameters.
-///
-/// 5 additions, 3 multiplications, 7 divisions.
-fn d_measures<S: scalar::Scalar>(
-    functionals: &[S],
-    p: &[S; PARAMETERS],
-) -> ([S; 35], [[S; PARAMETERS]; 5]) {
-    let &[f0, _, f2, f3, f4, f5, _] = functionals else {
-        return ([nan(); 35], [[nan(); PARAMETERS]; 5])
-    };
-    let &[p_a, _, _, _] = p;
-    let v0 = f3 * f3;
-    let v1 = p_a + v0;
-    let v2 = f2 / v1;
-    let v3 = f4 * f5;
-    let v4 = v3 / f0;
-    let v5 = v4 / f0;
-    let v6 = -v5;
-    let v7 = S::constant(1.0) / v1;
-    let v8 = v2 / v1;
-    let v9 = f3 + f3;
-    let v10 = v8 * v9;
-    let v11 = -v10;
-    let v12 = f5 / f0;
-    let v13 = f4 / f0;
-    let v14 = -v8;
-    (
-        [
-            S::constant(1.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(1.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            v7,
-            v11,
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            v6,
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            v12,
-            v13,
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(0.0),
-            S::constant(1.0),
-        ],
-        [
-            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [v14, S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-        ],
-    )
 }
 
 /// State derivative f of mode `first` and, for each column v, (df/dx) v.
@@ -2740,6 +3049,32 @@ fn tangent_integrated_second<S: scalar::Scalar, const C: usize>(
     }
 }
 
+/// The integrands and their derivatives along each direction.
+///
+/// Once: 1 multiplication. A column, at most: 1 addition, 2 multiplications.
+#[inline]
+fn tangent_integrands<S: scalar::Scalar, const C: usize>(
+    x: &[S; STATES],
+    along: &model::Directions<'_, S, STATES, PARAMETERS, C>,
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> ([S; INTEGRALS], [[S; INTEGRALS]; C]) {
+    let &[_, _] = env.memory else {
+        return ([nan(); INTEGRALS], [[nan(); INTEGRALS]; C])
+    };
+    let &[_, _, _, _] = env.branch else {
+        return ([nan(); INTEGRALS], [[nan(); INTEGRALS]; C])
+    };
+    let &[x_x, x_Y, _] = x;
+    let v0 = x_x * x_Y;
+    let mut products = [[S::constant(0.0); INTEGRALS]; C];
+    let directions = along.dx.iter().zip(along.dk).zip(along.dp).zip(along.dt);
+    for (product, (((&[dx_x, dx_Y, _], _), _), _)) in products.iter_mut().zip(directions)
+    {
+        *product = [x_Y * dx_x + x_x * dx_Y];
+    }
+    ([v0], products)
+}
+
 /// NaN.
 fn nan<S: scalar::Scalar>() -> S {
     S::constant(f64::NAN)
@@ -2761,6 +3096,18 @@ fn nan_gradient<S: scalar::Scalar>() -> model::Gradient<S, STATES, PARAMETERS> {
     }
 }
 
+/// A gradient by state and rate of NaN.
+fn nan_rate_gradient<S: scalar::Scalar>() -> model::RateGradient<S, STATES, PARAMETERS> {
+    model::RateGradient {
+        value: nan(),
+        dx: [nan(); STATES],
+        dk: [nan(); STATES],
+        dp: [nan(); PARAMETERS],
+        dtau: nan(),
+        dt: nan(),
+    }
+}
+
 /// A Jacobian of NaN.
 fn nan_jacobian<S: scalar::Scalar>() -> model::Jacobian<S, STATES, PARAMETERS> {
     model::Jacobian {
@@ -2769,6 +3116,15 @@ fn nan_jacobian<S: scalar::Scalar>() -> model::Jacobian<S, STATES, PARAMETERS> {
         dp: [nan_state(); PARAMETERS],
         dtau: nan_state(),
         dt: nan_state(),
+    }
+}
+
+/// A linearised residual of NaN.
+fn nan_linearised<S: scalar::Scalar>() -> model::Linearised<S, STATES> {
+    model::Linearised {
+        value: nan_state(),
+        dx: [nan_state(); STATES],
+        dk: [nan_state(); STATES],
     }
 }
 

@@ -162,6 +162,7 @@ impl Lowering<'_> {
                 when: when.map(|value| value.node),
                 reset,
                 memory_reset,
+                also_zero: Vec::new(),
             });
         }
     }
