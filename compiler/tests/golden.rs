@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // tests say what went wrong by panicking
 #![deny(warnings)] // of the golden files, too
 
-use gaitc_runtime::model::{Directions, Env, Gradient, Jacobian, Model, RateGradient};
+use gaitc_runtime::model::{Directions, Env, Functional, Gradient, Jacobian, Model, RateGradient};
 
 #[path = "golden/cart.rs"]
 #[rustfmt::skip]
@@ -401,18 +401,41 @@ fn derivatives_with_a_mass_matrix() {
     let point = Point {
         x: [0.3, 0.7, 0.4],
         k: [1.1, -0.6, 0.2],
-        p: [2.0, 0.7],
-        tau: 0.0,
-        t: 0.0,
+        p: [2.0, 0.7, 1.3],
+        tau: 0.25,
+        t: 0.4,
         memory: vec![],
         branch: vec![],
     };
-    check::<Cart, 3, 2, 0>(&point);
-    let ([_, w, phi], [kv, kw, kphi], [m, l]) = (point.x, point.k, point.p);
-    let expected = [m * kv + l * phi.cos() * kw - phi.sin() * w * w * l, phi.cos() * kv + l * kw + phi.cos(), kphi - w];
+    check::<Cart, 3, 3, { cart::INTEGRALS }>(&point);
+    let ([v, w, phi], [kv, kw, kphi], [m, l, g]) = (point.x, point.k, point.p);
+    let expected =
+        [m * kv + l * phi.cos() * kw - phi.sin() * w * w * l, phi.cos() * kv + l * kw + g * phi.cos(), kphi - w];
     close("residual", &Cart::residual(0, &point.x, &point.k, &point.env()), &expected);
     assert!(!Cart::INFO.explicit);
+    // Rates are those that are passed in, not solved for.
+    close("push", &[Cart::observable(0, 0, &point.x, &point.k, &point.env())], &[m * kv]);
+    let lift = (l * phi.cos() * kphi + kv * point.tau + v) * (3.0 * point.t).cos();
+    close("integrands", &Cart::integrands(0, &point.x, &point.k, &point.env()), &[lift, kv]);
     assert!(Cart::flow(0, &point.x, &point.env()).iter().all(|value| value.is_nan()));
+}
+
+/// What `also_zero` says in the info, and what its functionals are.
+#[test]
+fn functions_that_vanish_with_a_guard() {
+    let [height, touching] = Cart::INFO.transitions[0].also_zero else { panic!("two functions") };
+    assert_eq!((height.text, height.si, touching.text, touching.si), ("height", "m", "1 + cos(phi)", "1"));
+    let (x, k, p) = ([0.3, 0.7, 0.4], [1.1, -0.6, 0.2], [2.0, 0.7, 1.3]);
+    let env = Env { tau: 0.0, t: 0.0, p: &p, memory: &[], branch: &[] };
+    let value = |functional: usize, at_end: bool| match Cart::INFO.functionals[functional] {
+        Functional::Start(i) if !at_end => Cart::observable(i, 0, &x, &k, &env),
+        Functional::End(i) if at_end => Cart::observable(i, 0, &x, &k, &env),
+        other => panic!("{other:?}"),
+    };
+    let expected = 0.7 * 0.4_f64.sin();
+    close("height", &[value(height.start, false), value(height.end, true)], &[expected, expected]);
+    close("its rate", &[value(height.rate, true)], &[0.7 * 0.4_f64.cos() * 0.2]);
+    close("touching", &[value(touching.rate, true)], &[-0.4_f64.sin() * 0.2]);
 }
 
 #[test]
