@@ -171,7 +171,7 @@ impl Lowering<'_> {
             return self.model.graph.add(Node::Choose { margin: function, then, otherwise });
         }
         if self.model.graph.depends(&[function], |symbol| matches!(symbol, Symbol::Rate(_))) {
-            let message = "this switches where a rate does, which cannot be located";
+            let message = "this switches where something made of rates is zero, which cannot be located";
             let help = "decide by states; for the largest magnitude take `cycle_max(x)` and `cycle_min(x)` apart";
             self.report(Diagnostic::error(Code::NotAvailable, message).at(span, "").help(help), context);
             return then;

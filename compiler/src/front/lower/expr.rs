@@ -188,11 +188,11 @@ impl Lowering<'_> {
                 "write it without memory, rates, `tau` and `t`".to_owned(),
             ),
             Place::Flow if value.uses.any(Uses::RATE) => (
-                format!("`{name}` depends on a rate, which flow and mass matrix are there to determine"),
+                format!("`{name}` needs a rate, which flow and mass matrix are there to determine"),
                 "move the factor of the rate to `[modes.NAME.mass]`; the flow is what remains".to_owned(),
             ),
             Place::Event(_) | Place::When(_) if value.uses.any(Uses::RATE) => (
-                format!("`{name}` depends on a rate, which transitions do not know in a mode with a mass matrix"),
+                format!("`{name}` needs a rate, which transitions do not know in a mode with a mass matrix"),
                 "write it with states: where the mass matrix is singular, a rate may have no value".to_owned(),
             ),
             _ => (

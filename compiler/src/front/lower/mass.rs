@@ -26,39 +26,38 @@ impl Lowering<'_> {
         let [zero, one] = [0.0, 1.0].map(|value| self.model.graph.constant(value));
         let identity = |i: usize| (0..n).map(|j| if i == j { one } else { zero }).collect::<Vec<NodeId>>();
         let mut mass = Mass { rows: (0..n).map(identity).collect(), dimensions: vec![None; n] };
-        let errors = self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count();
+        // What is broken may have been meant to fill a gap.
+        let mut whole = true;
         for row in &mode.value.mass {
             let own = self.state_named(&row.name, row.span, "mass");
             let entries = match &row.value {
                 MassRow::Factor(factor) => vec![(own, row.span, factor)],
                 MassRow::Entries(entries) => {
-                    let column = |this: &mut Self, entry: &Named<Equation>| this.state_of(entry, "rate");
-                    entries.iter().map(|entry| (column(self, entry), entry.span, &entry.value)).collect()
+                    let column = |entry| (self.state_of(entry, "rate"), entry.span, &entry.value);
+                    entries.iter().map(column).collect()
                 }
             };
             if own.is_some_and(|i| has_state.get(i) == Some(&false)) {
                 self.no_rate(mode, &row.name, row.span);
+                whole = false;
                 continue;
             }
-            let mut row_values = vec![zero; n];
+            let mut values = vec![zero; n];
             let mut dimension: RowDimension = None;
             for (column, span, equation) in entries {
-                let Some(value) = self.mass_entry(mode, (column, span), equation, has_state, &mut dimension) else {
-                    continue;
-                };
-                if let Some(slot) = column.and_then(|j| row_values.get_mut(j)) {
+                let value = self.mass_entry(mode, (column, span), equation, has_state, &mut dimension);
+                whole &= value.is_some();
+                if let (Some(slot), Some(value)) = (column.and_then(|j| values.get_mut(j)), value) {
                     *slot = value;
                 }
             }
             if let Some(i) = own {
                 mass.dimensions[i] = Some(dimension.map(|(dimension, _)| dimension));
-                mass.rows[i] = row_values;
+                mass.rows[i] = values;
             }
+            whole &= own.is_some();
         }
-        // What is broken may have been meant to fill a gap.
-        if errors == self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
-            && let Some(state) = undetermined(&mass.rows, zero)
-        {
+        if let Some(state) = undetermined(&mass.rows, zero).filter(|_| whole) {
             self.singular(mode, state, first.span);
         }
         Some(mass)
