@@ -57,6 +57,8 @@ pub fn every_operation() -> Model {
     model.transitions[0].to = 1;
     model.functionals.push(Functional { kind: FunctionalKind::Minimum, expr: rate });
     let value = model.graph.symbol(Symbol::Functional(model.functionals.len() - 1));
+    let product = model.graph.binary(Binary::Mul, rate, y);
+    model.functionals.push(Functional { kind: FunctionalKind::Integral, expr: product });
     let mut slowest = model.measures[0].clone();
     (slowest.name, slowest.expr) = ("slowest".into(), value);
     model.measures.push(slowest);

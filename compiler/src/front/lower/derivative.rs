@@ -9,6 +9,7 @@ use crate::front::parser::shortened;
 use crate::front::syntax::{Expr, ExprKind};
 use crate::ir::{Binary, Node, NodeId, Symbol};
 use crate::source::Span;
+use std::collections::BTreeSet;
 
 impl Lowering<'_> {
     /// `d(expr, x)`: the partial derivative, all other symbols held.
@@ -73,18 +74,17 @@ impl Lowering<'_> {
         }
         let mut sum: Option<NodeId> = None;
         let mut uses = value.uses;
-        for i in 0..self.model.states.len() {
-            if let Some(slope) = self.slope(value.node, Symbol::State(i)) {
-                let rate = self.model.graph.symbol(Symbol::Rate(i));
-                let term = self.binary(Binary::Mul, slope, rate);
-                sum = Some(self.sum(sum, term));
-                uses = uses.and(Uses::RATE);
-            }
-        }
-        for time in [Symbol::Tau, Symbol::Time] {
-            if let Some(slope) = self.slope(value.node, time) {
-                sum = Some(self.sum(sum, slope));
-            }
+        for symbol in self.changing(value.node) {
+            let slope = self.slope(value.node, symbol);
+            let term = match symbol {
+                Symbol::State(i) => {
+                    uses = uses.and(Uses::RATE);
+                    let rate = self.model.graph.symbol(Symbol::Rate(i));
+                    self.binary(Binary::Mul, slope, rate)
+                }
+                _ => slope,
+            };
+            sum = Some(sum.map_or(term, |sum| self.binary(Binary::Add, sum, term)));
         }
         let Some(node) = sum else {
             let message = format!("{} does not change along the motion", self.quote(of));
@@ -96,17 +96,24 @@ impl Lowering<'_> {
         self.available(Value { node, dimension, uses }, &shortened(&name), span, context)
     }
 
-    /// The partial derivative of a node; `None` where it does not depend on the symbol.
-    fn slope(&mut self, node: NodeId, symbol: Symbol) -> Option<NodeId> {
-        let graph = &mut self.model.graph;
-        if graph.node(node) == Node::Symbol(symbol) {
-            return Some(graph.constant(1.0));
-        }
-        graph.depends(&[node], |other| other == symbol).then(|| graph.add(Node::Partial(node, symbol)))
+    /// The states that a node depends on, tau and t, in the order of [`Symbol`].
+    fn changing(&self, node: NodeId) -> BTreeSet<Symbol> {
+        let mut symbols = BTreeSet::new();
+        self.model.graph.visit(&[node], |_, node| {
+            if let Node::Symbol(symbol @ (Symbol::State(_) | Symbol::Tau | Symbol::Time)) = node {
+                symbols.insert(symbol);
+            }
+        });
+        symbols
     }
 
-    fn sum(&mut self, sum: Option<NodeId>, term: NodeId) -> NodeId {
-        sum.map_or(term, |sum| self.binary(Binary::Add, sum, term))
+    /// The partial derivative of a node by a symbol that it depends on.
+    fn slope(&mut self, node: NodeId, symbol: Symbol) -> NodeId {
+        let graph = &mut self.model.graph;
+        if graph.node(node) == Node::Symbol(symbol) {
+            return graph.constant(1.0);
+        }
+        graph.add(Node::Partial(node, symbol))
     }
 
     /// Reports what is one number of a map.
