@@ -9,7 +9,7 @@ mod reference;
 
 use crate::load::Loaded;
 use gaitc_runtime::probe::{Function, Point, Variable, functions};
-pub use points::Points;
+pub use points::{Owned, Points};
 use reference::Reference;
 
 /// Correct digits of one generated derivative.
@@ -25,7 +25,7 @@ pub struct Checked {
     pub samples: usize,
 }
 
-/// Compares all derivatives at `samples` random points made from `seed`.
+/// Compares all derivatives at `samples` random points made from `seed`, on the section and at zeros of guards too.
 pub fn verify(loaded: &Loaded, samples: usize, seed: u64) -> Vec<Checked> {
     let info = loaded.compiled.info();
     let mut points = Points::new(loaded, seed);

@@ -3,10 +3,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
 use approx::assert_relative_eq;
-use gaitc::load::embedded;
+use gaitc::load::{Loaded, embedded};
 use gaitc::models::MODELS;
-use gaitc::verify::verify;
+use gaitc::verify::{Points, verify};
+use gaitc_compiler::ir::eval::{Environment, value};
 use gaitc_runtime::probe::{Function, Point, Variable};
+use nalgebra::DMatrix;
 
 #[test]
 fn every_generated_derivative_has_twelve_digits() {
@@ -20,6 +22,43 @@ fn every_generated_derivative_has_twelve_digits() {
             assert_relative_eq!(10f64.powf(-c.digits), 0.0, epsilon = 1e-12);
         }
     }
+}
+
+/// A mass matrix that is singular where maps begin is compared there, and not only where it is regular.
+#[test]
+fn points_include_those_where_a_mass_matrix_is_singular() {
+    let mut singular_on_section = 0;
+    for entry in MODELS.iter().filter(|entry| !entry.compiled.info().explicit) {
+        let loaded = embedded(entry).unwrap();
+        let mut points = Points::new(&loaded, 7);
+        let points: Vec<_> = (0..300).map(|_| points.next_point()).collect();
+        let regularity = |at: &Point<'_>| {
+            let residual = entry.compiled.probe(Function::Linearised(0), at).unwrap();
+            let (_, columns) = residual.derivatives.iter().find(|(v, _)| *v == Variable::Rate).unwrap();
+            DMatrix::from_fn(columns.len(), columns.len(), |i, j| columns[j][i]).singular_values().min()
+        };
+        let regularities: Vec<f64> = points.iter().map(|point| regularity(&point.borrow())).collect();
+        let regular = regularities.iter().filter(|r| **r > 1e-6).count();
+        assert!(regular >= 50, "{}: {regular} regular points", loaded.spec.name);
+        let start = Point { x: &section_start(&loaded), ..points[0].borrow() };
+        if regularity(&start) < 1e-20 {
+            singular_on_section += 1;
+            let singular = regularities.iter().filter(|r| **r < 1e-20).count();
+            assert!(singular >= 100, "{}: {singular} singular points", loaded.spec.name);
+        }
+    }
+    assert!(singular_on_section > 0, "no model has a mass matrix that is singular on its section any more");
+}
+
+/// The first guess of a gait as a full state.
+fn section_start(loaded: &Loaded) -> Vec<f64> {
+    let section = loaded.spec.section.as_ref().unwrap();
+    let mut x = vec![0.0; loaded.spec.states.len()];
+    for (&i, start) in section.coordinates.iter().zip(&section.start) {
+        x[i] = *start;
+    }
+    let at = Environment { states: &x, parameters: &loaded.parameters(), ..Environment::default() };
+    section.embed.iter().map(|&e| value(&loaded.spec.graph, e, &at)).collect()
 }
 
 /// M_L written by hand: df/dx, df/domega, df/dl_s at one point of the stroke.

@@ -33,16 +33,23 @@ fn every_spec_of_the_project_is_accepted_without_a_word() {
     }
 }
 
-/// The TOML blocks of the language reference are one spec.
+/// The TOML blocks of the language reference are one spec, and those marked so are specs of their own.
 #[test]
 fn the_language_reference_compiles() {
     let page = std::fs::read_to_string(folder("../docs/language.md")).unwrap();
-    let blocks = page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    let text: String = blocks.collect();
-    let parsed = parse_text(Path::new("rimless_wheel.toml"), &text);
-    assert_eq!(render(&parsed.diagnostics, &parsed.sources, false), "");
-    let model = parsed.model.unwrap();
-    assert_eq!((model.measures.len(), model.problems.len()), (4, 1));
+    let blocks = |fence: &str| -> Vec<String> {
+        page.split(fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+    };
+    let model = |name: &str, text: &str| {
+        let parsed = parse_text(Path::new(name), text);
+        assert_eq!(render(&parsed.diagnostics, &parsed.sources, false), "");
+        parsed.model.unwrap()
+    };
+    let wheel = model("rimless_wheel.toml", &blocks("```toml\n").concat());
+    assert_eq!((wheel.measures.len(), wheel.problems.len()), (4, 1));
+    let [sled] = &blocks("```toml spec\n")[..] else { panic!("one spec of its own") };
+    let sled = model("sled.toml", sled);
+    assert!(sled.modes[0].mass.is_some() && sled.transitions[0].also_zero.len() == 1);
 }
 
 /// What is said of each file of `tests/wrong` stands beside it. `GAITC_BLESS=1` writes what is said now, and fails.

@@ -3,6 +3,7 @@
 
 use gaitc_compiler::diagnostic::render;
 use gaitc_compiler::front::parse_text;
+use gaitc_compiler::ir::canonical::fingerprint;
 use gaitc_compiler::ir::{FunctionalKind, Model, Node, NodeId, Sense, Symbol};
 use std::path::Path;
 
@@ -13,6 +14,7 @@ fn show(model: &Model, id: NodeId) -> String {
         Node::Constant(bits) => format!("{}", f64::from_bits(bits)),
         Node::Symbol(symbol) => match symbol {
             Symbol::State(i) => model.states[i].name.clone(),
+            Symbol::Rate(i) => format!("dot {}", model.states[i].name),
             Symbol::Parameter(i) => model.parameters[i].name.clone(),
             Symbol::Memory(i) => model.memory[i].name.clone(),
             Symbol::Measure(i) => model.measures[i].name.clone(),
@@ -116,6 +118,61 @@ fn logic_is_nested_selection() {
     let (not, _) = flow("if(not (x > 0), 1, 2)*1 [m/s^2]");
     assert_eq!(not, "select(s0, 2, 1)");
     assert_eq!(flow("if(1 < 2, 3, 4)*1 [m/s^2]").0, "3");
+}
+
+#[test]
+fn rates_follow_the_chain_rule() {
+    let rows = [
+        ("dot(x)", "m/s", "dot x"),
+        ("dot(2*x)", "m/s", "mul(d(mul(2, x), x), dot x)"),
+        ("dot(tau)", "1", "1"),
+        ("dot(v*tau/a + t/1 [s])", "1/s", "add(add(mul(d(E, v), dot v), d(E, tau)), d(E, time))"),
+        ("d(dot(x^2), x)", "m/s", "d(mul(d(pow(x, 2), x), dot x), x)"),
+        ("dot(if(x < a, x, n*v*1 [s]))", "m/s", "add(mul(d(E, x), dot x), mul(d(E, v), dot v))"),
+    ];
+    for (expr, unit, expected) in rows {
+        let model = model(&format!("[measures]\ny = {{ expr = \"end({expr})\", unit = \"{unit}\" }}\n"), "0");
+        let inner = if expr.contains("if(") { "select(s0, x, mul(n, v))" } else { "add(div(mul(v, tau), a), time)" };
+        assert_eq!(show(&model, model.functionals[0].expr), expected.replace('E', inner), "{expr}");
+    }
+}
+
+#[test]
+fn mass_matrices_have_rows_of_the_identity_where_none_is_given() {
+    let tables = format!(
+        "[modes.go.mass]\nv = {{ v = \"x^2\", x = \"d(a*sin(x/a), x)*v*a\" }}\n{STEP}[section]\nafter = \"step\"\n\
+         coordinates = [\"v\"]\n[section.embed]\nx = \"a\"\n[section.start]\nv = \"1 m/s\"\n\
+         [measures]\ntop = {{ expr = \"end(x*v)\", unit = \"m^2/s\" }}\n"
+    );
+    let tables = tables.replace("when =", "also_zero = [\"a - x\", \" x*v \"]\nwhen =");
+    let model = model(&tables, "-k*x^2*v/1 [s]");
+    let mass = model.modes[0].mass.as_ref().unwrap();
+    let shown: Vec<Vec<String>> = mass.iter().map(|row| row.iter().map(|&e| show(&model, e)).collect()).collect();
+    assert_eq!(shown, [["1", "0"], ["mul(mul(d(mul(a, sin(div(x, a))), x), v), a)", "pow(x, 2)"]]);
+    // The functionals of `also_zero` come after those of measures, and share them.
+    let show = |i: usize| format!("{:?} {}", model.functionals[i].kind, show(&model, model.functionals[i].expr));
+    let also_zero = &model.transitions[0].also_zero;
+    let all: Vec<_> = also_zero.iter().map(|z| (&*z.text, [z.start, z.end, z.rate].map(show))).collect();
+    let expected = [
+        ("a - x", ["Start sub(a, x)", "End sub(a, x)", "End mul(d(sub(a, x), x), dot x)"]),
+        (
+            "x*v",
+            ["Start mul(x, v)", "End mul(x, v)", "End add(mul(d(mul(x, v), x), dot x), mul(d(mul(x, v), v), dot v))"],
+        ),
+    ];
+    assert_eq!(all, expected.map(|(text, shown)| (text, shown.map(str::to_owned))));
+    assert_eq!((also_zero[1].end, also_zero[1].dimension.to_string().as_str()), (0, "m^2 s^-1"));
+}
+
+#[test]
+fn also_zero_belongs_to_the_equations() {
+    let tables = format!(
+        "{STEP}[section]\nafter = \"step\"\ncoordinates = [\"v\"]\n[section.embed]\nx = \"a\"\n\
+         [section.start]\nv = \"1 m/s\"\n"
+    );
+    let print = |also_zero: &str| fingerprint(&model(&tables.replace("when =", &format!("{also_zero}when =")), "0"));
+    let prints = ["", "also_zero = [\"a - x\"]\n", "also_zero = [\"v\"]\n", "also_zero = [ \"a -  x\"]\n"].map(print);
+    assert!(prints[0] != prints[1] && prints[1] != prints[2] && prints[1] == prints[3]);
 }
 
 const STEP: &str = "[transitions.step]\nfrom = \"go\"\nto = \"go\"\nguard = \"x - a\"\ndirection = \"rising\"\n\

@@ -8,6 +8,8 @@ use proptest::prelude::*;
 use std::path::Path;
 
 const SPEC: &str = include_str!("../../specs/prescribed_length.toml");
+/// The spec with most kinds of tables.
+const LARGE: &str = include_str!("../../specs/self_exciting.toml");
 
 /// Pieces of the language, so that mutations get past the first token.
 const PIECES: &[&str] = &[
@@ -35,6 +37,7 @@ const PIECES: &[&str] = &[
     "0.5",
     "if(",
     "d(",
+    "dot(",
     "mean(",
     "abs(",
     "and",
@@ -70,7 +73,7 @@ enum Mutation {
 }
 
 fn mutation() -> impl Strategy<Value = Mutation> {
-    let place = 0..SPEC.len();
+    let place = 0..LARGE.len();
     prop_oneof![
         (place.clone(), 1..40usize).prop_map(|(at, length)| Mutation::Delete(at, length)),
         (place.clone(), 0..PIECES.len()).prop_map(|(at, piece)| Mutation::Insert(at, piece)),
@@ -120,6 +123,13 @@ proptest! {
     #[test]
     fn mutated_specs_never_panic(mutations in prop::collection::vec(mutation(), 1..6)) {
         let mut text = SPEC.as_bytes().to_vec();
+        mutations.iter().for_each(|mutation| mutate(&mut text, mutation));
+        check(&String::from_utf8_lossy(&text))?;
+    }
+
+    #[test]
+    fn mutated_specs_with_mass_matrices_never_panic(mutations in prop::collection::vec(mutation(), 1..6)) {
+        let mut text = LARGE.as_bytes().to_vec();
         mutations.iter().for_each(|mutation| mutate(&mut text, mutation));
         check(&String::from_utf8_lossy(&text))?;
     }

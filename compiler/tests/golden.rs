@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // tests say what went wrong by panicking
 #![deny(warnings)] // of the golden files, too
 
-use gaitc_runtime::model::{Env, Gradient, Jacobian, Model};
+use gaitc_runtime::model::{Directions, Env, Functional, Gradient, Jacobian, Model, RateGradient};
 
 #[path = "golden/cart.rs"]
 #[rustfmt::skip]
@@ -91,6 +91,11 @@ fn gradient_columns<const N: usize, const P: usize>(g: &Gradient<f64, N, P>) -> 
     all.map(|&entry| vec![entry]).collect()
 }
 
+fn rate_gradient_columns<const N: usize, const P: usize>(g: &RateGradient<f64, N, P>) -> Vec<Vec<f64>> {
+    let all = g.dx.iter().chain(&g.dk).chain(&g.dp).chain([&g.dtau, &g.dt]);
+    all.map(|&entry| vec![entry]).collect()
+}
+
 /// Every derivative of a model at a point, against differences.
 fn check<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(point: &Point<N, P>) {
     let env = &point.env();
@@ -122,13 +127,14 @@ fn check<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(poin
     let observables = 16;
     for mode in 0..M::INFO.modes.len() {
         for i in 0..observables {
-            let g = M::observable_gradient(i, mode, &point.x, env);
+            let g = M::observable_gradient(i, mode, &point.x, &point.k, env);
             if g.value.is_nan() {
                 break;
             }
-            let differences = point.differences(|at| vec![M::observable(i, mode, &at.x, &at.env())]);
-            compare::<N>(&format!("observable {i}"), &gradient_columns(&g), &differences);
+            let differences = point.differences(|at| vec![M::observable(i, mode, &at.x, &at.k, &at.env())]);
+            compare::<N>(&format!("observable {i}"), &rate_gradient_columns(&g), &differences);
         }
+        check_integrands::<M, N, P, Q>(mode, point);
     }
     let symmetry = |at: &Point<N, P>| M::symmetry(&at.x, &at.p).to_vec();
     let j = M::symmetry_jacobian(&point.x, &point.p);
@@ -180,6 +186,32 @@ fn check_residual<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: us
     close("residual", &j.value, &residual(point));
     let columns = j.dx.iter().chain(&j.dk).chain(&j.dp).chain([&j.dtau, &j.dt]).map(|c| c.to_vec());
     compare::<N>("residual", &columns.collect::<Vec<_>>(), &point.differences(residual));
+    let l = M::residual_linearised(mode, &point.x, &point.k, &point.env());
+    assert_eq!((l.value, l.dx, l.dk), (j.value, j.dx, j.dk));
+}
+
+/// Along two directions, against the differences' Jacobian times the direction.
+fn check_integrands<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    mode: usize,
+    point: &Point<N, P>,
+) {
+    let integrands = |at: &Point<N, P>| M::integrands(mode, &at.x, &at.k, &at.env()).to_vec();
+    let of_states = |slope: f64| -> [[f64; N]; 2] {
+        core::array::from_fn(|c| core::array::from_fn(|i| 0.3 + c as f64 + slope * i as f64))
+    };
+    let (dx, dk) = (of_states(-0.7), of_states(0.9));
+    let dp: [[f64; P]; 2] = core::array::from_fn(|c| core::array::from_fn(|i| 0.2 - c as f64 + 0.4 * i as f64));
+    let dt = [0.6, -0.5];
+    let directions = Directions { dx: &dx, dk: &dk, dp: &dp, dt: &dt };
+    let (value, along) = M::integrands_along(mode, &point.x, &point.k, &directions, &point.env());
+    assert_eq!(value.to_vec(), integrands(point));
+    let by_all = point.differences(integrands);
+    for c in 0..2 {
+        let direction: Vec<f64> = [&dx[c][..], &dk[c], &dp[c], &[0.0, dt[c]]].concat();
+        let expected: Vec<f64> =
+            (0..Q).map(|row| by_all.iter().zip(&direction).map(|(column, v)| column[row] * v).sum()).collect();
+        close("integrands along", &along[c], &expected);
+    }
 }
 
 fn check_embed<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(point: &Point<N, P>) {
@@ -269,7 +301,7 @@ fn values_of_the_climber() {
     assert_eq!(memory, [4.0]);
     let acceleration = -l_s / 2.0 * omega * omega * (omega * 0.05).cos();
     let force = -m * acceleration + m * g * q.cos() + m * v * v / r;
-    close("peak force", &[PrescribedLength::observable(0, 0, &point.x, &point.env())], &[force]);
+    close("peak force", &[PrescribedLength::observable(0, 0, &point.x, &point.k, &point.env())], &[force]);
     // After the stroke the leg stays short.
     let point = climber(0.2, [false, true, true, true]);
     close("flow", &PrescribedLength::flow(0, &point.x, &point.env()), &[v / l_b, -g * q.sin()]);
@@ -339,8 +371,8 @@ fn values_of_every_operation() {
     // The second mode's rate of x is Y; the first's is what the flow says.
     let last = EveryOperation::INFO.functionals.len();
     assert!(last > 0);
-    close("rate", &[EveryOperation::observable(3, 1, &point.x, &point.env())], &[y]);
-    close("rate", &[EveryOperation::observable(3, 0, &point.x, &point.env())], &expected[..1]);
+    close("rate", &[EveryOperation::observable(3, 1, &point.x, &point.k, &point.env())], &[y]);
+    close("rate", &[EveryOperation::observable(3, 0, &point.x, &point.k, &point.env())], &expected[..1]);
     assert_eq!(EveryOperation::when(0, &point.x, &point.env()), y);
     assert_eq!(EveryOperation::when(1, &point.x, &point.env()), 1.0);
 }
@@ -369,18 +401,41 @@ fn derivatives_with_a_mass_matrix() {
     let point = Point {
         x: [0.3, 0.7, 0.4],
         k: [1.1, -0.6, 0.2],
-        p: [2.0, 0.7],
-        tau: 0.0,
-        t: 0.0,
+        p: [2.0, 0.7, 1.3],
+        tau: 0.25,
+        t: 0.4,
         memory: vec![],
         branch: vec![],
     };
-    check::<Cart, 3, 2, 0>(&point);
-    let ([_, w, phi], [kv, kw, kphi], [m, l]) = (point.x, point.k, point.p);
-    let expected = [m * kv + l * phi.cos() * kw - phi.sin() * w * w * l, phi.cos() * kv + l * kw + phi.cos(), kphi - w];
+    check::<Cart, 3, 3, { cart::INTEGRALS }>(&point);
+    let ([v, w, phi], [kv, kw, kphi], [m, l, g]) = (point.x, point.k, point.p);
+    let expected =
+        [m * kv + l * phi.cos() * kw - phi.sin() * w * w * l, phi.cos() * kv + l * kw + g * phi.cos(), kphi - w];
     close("residual", &Cart::residual(0, &point.x, &point.k, &point.env()), &expected);
     assert!(!Cart::INFO.explicit);
+    // Rates are those that are passed in, not solved for.
+    close("push", &[Cart::observable(0, 0, &point.x, &point.k, &point.env())], &[m * kv]);
+    let lift = (l * phi.cos() * kphi + kv * point.tau + v) * (3.0 * point.t).cos();
+    close("integrands", &Cart::integrands(0, &point.x, &point.k, &point.env()), &[lift, kv]);
     assert!(Cart::flow(0, &point.x, &point.env()).iter().all(|value| value.is_nan()));
+}
+
+/// What `also_zero` says in the info, and what its functionals are.
+#[test]
+fn functions_that_vanish_with_a_guard() {
+    let [height, touching] = Cart::INFO.transitions[0].also_zero else { panic!("two functions") };
+    assert_eq!((height.text, height.si, touching.text, touching.si), ("height", "m", "1 + cos(phi)", "1"));
+    let (x, k, p) = ([0.3, 0.7, 0.4], [1.1, -0.6, 0.2], [2.0, 0.7, 1.3]);
+    let env = Env { tau: 0.0, t: 0.0, p: &p, memory: &[], branch: &[] };
+    let value = |functional: usize, at_end: bool| match Cart::INFO.functionals[functional] {
+        Functional::Start(i) if !at_end => Cart::observable(i, 0, &x, &k, &env),
+        Functional::End(i) if at_end => Cart::observable(i, 0, &x, &k, &env),
+        other => panic!("{other:?}"),
+    };
+    let expected = 0.7 * 0.4_f64.sin();
+    close("height", &[value(height.start, false), value(height.end, true)], &[expected, expected]);
+    close("its rate", &[value(height.rate, true)], &[0.7 * 0.4_f64.cos() * 0.2]);
+    close("touching", &[value(touching.rate, true)], &[-0.4_f64.sin() * 0.2]);
 }
 
 #[test]
@@ -390,8 +445,8 @@ fn wrong_indices_and_lengths_give_nan() {
     assert!(nan(&PrescribedLength::flow(1, &point.x, &point.env())));
     assert!(PrescribedLength::guard(1, &point.x, &point.env()).is_nan());
     assert!(PrescribedLength::switch(4, &point.x, &point.env()).is_nan());
-    assert!(PrescribedLength::observable(0, 1, &point.x, &point.env()).is_nan());
-    assert!(PrescribedLength::observable(1, 0, &point.x, &point.env()).is_nan());
+    assert!(PrescribedLength::observable(0, 1, &point.x, &point.k, &point.env()).is_nan());
+    assert!(PrescribedLength::observable(1, 0, &point.x, &point.k, &point.env()).is_nan());
     assert!(PrescribedLength::when(1, &point.x, &point.env()).is_nan());
     let short = Env { branch: &[true; 3], ..point.env() };
     assert!(nan(&PrescribedLength::flow(0, &point.x, &short)));

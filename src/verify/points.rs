@@ -1,10 +1,17 @@
 //! Random points at which derivatives are compared: parameters in their ranges, states around the section's start,
 //! branch selectors as the switching functions give them and, at every other point, turned at random (frozen selectors
 //! may be on either side).
+//!
+//! Of three points one is anywhere, one on the section and one where a guard is zero: that is where a map begins and
+//! ends, and where mass matrices like to be singular.
 
 use crate::load::Loaded;
-use gaitc_compiler::ir::eval::{Environment, value};
+use gaitc_compiler::ir::eval::{Environment, derivative, value};
+use gaitc_compiler::ir::{NodeId, Symbol};
 use gaitc_runtime::probe::Point;
+
+/// Most steps of Newton's method to a guard's zero.
+const NEWTON_STEPS: usize = 50;
 
 /// Makes random points.
 pub struct Points<'a> {
@@ -26,9 +33,23 @@ pub struct Owned {
 }
 
 impl Owned {
-    pub(super) fn borrow(&self) -> Point<'_> {
+    /// The point as generated functions take it.
+    pub fn borrow(&self) -> Point<'_> {
         let Self { x, k, p, memory, functionals, branch, tau, t } = self;
         Point { x, k, p, memory, functionals, branch, tau: *tau, t: *t }
+    }
+
+    fn environment(&self) -> Environment<'_> {
+        Environment {
+            states: &self.x,
+            rates: &self.k,
+            parameters: &self.p,
+            memory: &self.memory,
+            branch: &self.branch,
+            tau: self.tau,
+            time: self.t,
+            ..Environment::default()
+        }
     }
 }
 
@@ -68,11 +89,43 @@ impl<'a> Points<'a> {
             for (&i, &start) in section.coordinates.iter().zip(&section.start) {
                 center[i] = start;
             }
-            let at = Environment { states: &center, parameters: p, ..Environment::default() };
-            let embedded: Vec<f64> = section.embed.iter().map(|&e| value(&spec.graph, e, &at)).collect();
-            center = embedded;
+            center = self.embedded(&center, p);
         }
         center.into_iter().map(|c| c + c.abs().max(0.2) * self.between(-1.0, 1.0)).collect()
+    }
+
+    /// The point of the section with the same coordinates; the same state where there is no section.
+    fn embedded(&self, x: &[f64], p: &[f64]) -> Vec<f64> {
+        let spec = &self.loaded.spec;
+        let at = Environment { states: x, parameters: p, ..Environment::default() };
+        let embed = |section: &gaitc_compiler::ir::Section| -> Vec<f64> {
+            section.embed.iter().map(|&e| value(&spec.graph, e, &at)).collect()
+        };
+        spec.section.as_ref().map_or_else(|| x.to_vec(), embed)
+    }
+
+    /// Moves state and tau to the zero of a guard, by Newton's method along its gradient; selectors stay as they are.
+    /// Leaves the point where it was if that leads nowhere.
+    fn to_zero(&self, guard: NodeId, point: &mut Owned) {
+        let graph = &self.loaded.spec.graph;
+        let (x, tau) = (point.x.clone(), point.tau);
+        for _ in 0..NEWTON_STEPS {
+            let at = point.environment();
+            let miss = value(graph, guard, &at);
+            let slopes: Vec<f64> = (0..x.len()).map(|i| derivative(graph, guard, &at, Symbol::State(i))).collect();
+            let by_tau = derivative(graph, guard, &at, Symbol::Tau);
+            let square = slopes.iter().map(|s| s * s).sum::<f64>() + by_tau * by_tau;
+            let step = miss / square;
+            if !step.is_finite() {
+                (point.x, point.tau) = (x, tau);
+                return;
+            }
+            point.x.iter_mut().zip(&slopes).for_each(|(x, slope)| *x -= step * slope);
+            point.tau -= step * by_tau;
+            if miss == 0.0 {
+                return;
+            }
+        }
     }
 
     /// The next point.
@@ -80,30 +133,38 @@ impl<'a> Points<'a> {
         let spec = &self.loaded.spec;
         self.made += 1;
         let p = self.parameters();
-        let x = self.states(&p);
+        let mut x = self.states(&p);
+        if self.made % 3 == 1 {
+            x = self.embedded(&x, &p);
+        }
         let k = spec.states.iter().map(|_| self.between(-2.0, 2.0)).collect();
         let memory = spec.memory.iter().map(|m| m.initial as f64 + (self.uniform() * 4.0).floor()).collect::<Vec<_>>();
         let functionals = spec.functionals.iter().map(|_| self.between(0.2, 2.0)).collect();
         let (tau, t) = (self.between(0.0, 0.5), self.between(0.0, 5.0));
-        let mut branch = vec![false; spec.switches.len()];
-        // Selectors may depend on one another: as many passes as there are switches settle any acyclic order.
-        for _ in 0..spec.switches.len() {
-            let at = Environment {
-                states: &x,
-                parameters: &p,
-                memory: &memory,
-                branch: &branch,
-                tau,
-                time: t,
-                ..Environment::default()
-            };
-            branch = spec.switches.iter().map(|s| value(&spec.graph, s.expr, &at) >= 0.0).collect();
+        let branch = vec![false; spec.switches.len()];
+        let mut point = Owned { x, k, p, memory, functionals, branch, tau, t };
+        self.select(&mut point);
+        if self.made % 3 == 2 && !spec.transitions.is_empty() {
+            // Each guard in its turn.
+            let transition = &spec.transitions[self.made / 3 % spec.transitions.len()];
+            self.to_zero(transition.guard, &mut point);
+            self.select(&mut point);
         }
         if self.made.is_multiple_of(2) {
-            for selector in &mut branch {
+            for selector in &mut point.branch {
                 *selector = self.uniform() < 0.5;
             }
         }
-        Owned { x, k, p, memory, functionals, branch, tau, t }
+        point
+    }
+
+    /// Sets the selectors as the switching functions say.
+    fn select(&self, point: &mut Owned) {
+        let spec = &self.loaded.spec;
+        // Selectors may depend on one another: as many passes as there are switches settle any acyclic order.
+        for _ in 0..spec.switches.len() {
+            let at = point.environment();
+            point.branch = spec.switches.iter().map(|s| value(&spec.graph, s.expr, &at) >= 0.0).collect();
+        }
     }
 }

@@ -26,6 +26,8 @@ impl<'a> Reference<'a> {
             Function::Variational(i) => format!("variational flow of {}", mode(i)),
             Function::Integrated(i) => format!("flow and integrands of {}", mode(i)),
             Function::Residual(i) => format!("residual of {}", mode(i)),
+            Function::Linearised(i) => format!("linearised residual of {}", mode(i)),
+            Function::Integrands(i) => format!("integrands of {}", mode(i)),
             Function::Switch(i) => format!("switch `{}`", self.info.switches.get(i).unwrap_or(&"?")),
             Function::Guard(i) => format!("guard of {}", transition(i)),
             Function::Reset(i) => format!("reset of {}", transition(i)),
@@ -43,7 +45,8 @@ impl<'a> Reference<'a> {
         let flow = |i: usize| self.spec.modes.get(i).map_or_else(Vec::new, |m| m.flow.clone());
         let section = self.spec.section.as_ref();
         match function {
-            Function::Flow(i) | Function::Variational(i) | Function::Residual(i) => flow(i),
+            Function::Flow(i) | Function::Variational(i) | Function::Residual(i) | Function::Linearised(i) => flow(i),
+            Function::Integrands(_) => self.integrands(),
             Function::Integrated(i) => [flow(i), self.integrands()].concat(),
             Function::Switch(i) => self.spec.switches.get(i).map(|s| s.expr).into_iter().collect(),
             Function::Guard(i) => self.spec.transitions.get(i).map(|t| t.guard).into_iter().collect(),
@@ -55,6 +58,19 @@ impl<'a> Reference<'a> {
             Function::Observable { index, .. } => self.functional(|f| observable(f) == Some(index)),
             Function::Measures => self.spec.measures.iter().map(|m| m.expr).collect(),
         }
+    }
+
+    /// What stands in for the rates in a function that does not take them: the flow of its mode.
+    fn rates(&self, function: Function) -> &[NodeId] {
+        let explicit = |mode: usize| self.spec.modes.get(mode).filter(|m| m.mass.is_none()).map(|m| m.flow.as_slice());
+        let before = |i: usize| self.spec.transitions.get(i).and_then(|t| explicit(t.from));
+        let flow = match function {
+            Function::Integrated(mode) => explicit(mode),
+            Function::Integrands(mode) | Function::Observable { mode, .. } if self.info.explicit => explicit(mode),
+            Function::Guard(i) | Function::When(i) | Function::Reset(i) | Function::Memory(i) => before(i),
+            _ => None,
+        };
+        flow.unwrap_or(&[])
     }
 
     fn functional(&self, wanted: impl Fn(Functional) -> bool) -> Vec<NodeId> {
@@ -74,23 +90,39 @@ impl<'a> Reference<'a> {
     /// The function's value.
     pub(super) fn value(&self, function: Function, at: &Point<'_>) -> Vec<f64> {
         let at = environment(at);
+        let flow: Vec<f64> = self.rates(function).iter().map(|&f| value(&self.spec.graph, f, &at)).collect();
+        let at = if flow.is_empty() { at } else { Environment { rates: &flow, ..at } };
         let values: Vec<f64> = self.roots(function).iter().map(|&root| value(&self.spec.graph, root, &at)).collect();
         match function {
             // Without `when` a transition is always enabled.
             Function::When(_) if values.is_empty() => vec![1.0],
-            Function::Residual(mode) => self.residual(mode, &at, values, &|node| value(&self.spec.graph, node, &at)),
+            Function::Residual(mode) | Function::Linearised(mode) => {
+                self.residual(mode, &at, values, &|node| value(&self.spec.graph, node, &at))
+            }
             _ => values,
         }
     }
 
     /// The function's derivative, columns one after the other.
     pub(super) fn derivative(&self, function: Function, variable: Variable, at: &Point<'_>) -> Vec<f64> {
-        let at = environment(at);
+        let (at, rates) = (environment(at), self.rates(function));
+        let flow: Vec<f64> = rates.iter().map(|&f| value(&self.spec.graph, f, &at)).collect();
+        let at = if flow.is_empty() { at } else { Environment { rates: &flow, ..at } };
         let column = |symbol: Symbol| {
             let of = |node: NodeId| derivative(&self.spec.graph, node, &at, symbol);
-            let values = self.roots(function).iter().map(|&root| of(root)).collect();
+            let through_rates = |node: NodeId| -> f64 {
+                let by_rate = |j: usize| derivative(&self.spec.graph, node, &at, Symbol::Rate(j));
+                rates.iter().enumerate().map(|(j, &f)| product(by_rate(j), of(f))).sum()
+            };
+            let whole = |&root: &NodeId| match symbol {
+                Symbol::Rate(_) if !rates.is_empty() => 0.0,
+                _ => of(root) + through_rates(root),
+            };
+            let values = self.roots(function).iter().map(whole).collect();
             match function {
-                Function::Residual(mode) => self.residual_slope(mode, symbol, &at, values, &of),
+                Function::Residual(mode) | Function::Linearised(mode) => {
+                    self.residual_slope(mode, symbol, &at, values, &of)
+                }
                 _ => values,
             }
         };
@@ -143,6 +175,11 @@ impl<'a> Reference<'a> {
     }
 }
 
+/// A product in which nothing comes of what does not occur, be it infinite.
+fn product(factor: f64, other: f64) -> f64 {
+    if factor == 0.0 { 0.0 } else { factor * other }
+}
+
 fn observable(functional: Functional) -> Option<usize> {
     match functional {
         Functional::Start(i) | Functional::End(i) | Functional::Maximum(i) | Functional::Minimum(i) => Some(i),
@@ -161,5 +198,79 @@ fn environment<'a>(at: &Point<'a>) -> Environment<'a> {
         tau: at.tau,
         time: at.t,
         ..Environment::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test may fail loudly
+    use super::Reference;
+    use approx::assert_relative_eq;
+    use gaitc_compiler::front::parse_text;
+    use gaitc_runtime::model::{Functional, ModeInfo, ModelInfo, Quantity};
+    use gaitc_runtime::probe::{Function, Point, Variable};
+    use std::path::Path;
+
+    const NUMBER: Quantity = Quantity { name: "", si: "1" };
+    static INFO: ModelInfo = ModelInfo {
+        name: "m",
+        fingerprint: "",
+        parameters: &[NUMBER],
+        states: &[NUMBER, NUMBER],
+        memory: &[],
+        modes: &[ModeInfo { name: "go", switches: &[], measured_switches: &[] }],
+        transitions: &[],
+        switches: &[],
+        coordinates: &[],
+        section_after: None,
+        symmetric: false,
+        functionals: &[Functional::Mean(0), Functional::Maximum(0)],
+        measures: &[NUMBER, NUMBER],
+        uses_time: false,
+        explicit: true,
+    };
+    const FLOW: &str = "[modes.go.flow]\nx = \"v\"\nv = \"-k*sin(x)\"\n";
+
+    fn spec(mass: &str, flow: &str) -> gaitc_compiler::ir::Model {
+        let text = format!(
+            "spec = 1\nname = \"m\"\n[parameters]\nk = \"3 1/s^2\"\n[state]\nx = {{ unit = \"1\" }}\nv = {{ unit = \"1/s\" }}\n\
+             {mass}{flow}[measures]\na = {{ expr = \"mean(x*dot(v))\", unit = \"1/s^2\" }}\n\
+             b = {{ expr = \"cycle_max(dot(v*tau))\", unit = \"1/s\" }}\n"
+        );
+        parse_text(Path::new("m.toml"), &text).model.unwrap()
+    }
+
+    fn at(tau: f64) -> Point<'static> {
+        Point { x: &[0.4, 0.7], k: &[5.0, 6.0], p: &[3.0], memory: &[], functionals: &[], branch: &[], tau, t: 0.0 }
+    }
+
+    /// x*dot(v) = -k x sin x, and dot(v tau) = v - k tau sin x.
+    #[test]
+    fn the_flow_stands_in_for_rates_where_there_is_one() {
+        let spec = spec("", FLOW);
+        let (reference, at) = (Reference::new(&INFO, &spec), at(0.2));
+        let (sin, cos) = 0.4_f64.sin_cos();
+        assert_relative_eq!(reference.value(Function::Integrands(0), &at)[0], -3.0 * 0.4 * sin);
+        let by_state = reference.derivative(Function::Integrands(0), Variable::State, &at);
+        assert_relative_eq!(by_state[..], [-3.0 * (sin + 0.4 * cos), 0.0][..], max_relative = 1e-15);
+        let by_parameter = reference.derivative(Function::Integrated(0), Variable::Parameter, &at);
+        assert_relative_eq!(by_parameter[..], [0.0, -sin, -0.4 * sin][..], max_relative = 1e-15);
+        let observable = Function::Observable { index: 0, mode: 0 };
+        assert_relative_eq!(reference.value(observable, &at)[0], 0.7 - 3.0 * 0.2 * sin, max_relative = 1e-15);
+        assert_relative_eq!(reference.derivative(observable, Variable::Tau, &at)[0], -3.0 * sin, max_relative = 1e-15);
+        assert_eq!(reference.derivative(observable, Variable::Rate, &at), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn rates_are_arguments_where_there_is_a_mass_matrix() {
+        let spec = spec("[modes.go.mass]\nv = \"x\"\n", FLOW);
+        let info = ModelInfo { explicit: false, ..INFO };
+        let (reference, at) = (Reference::new(&info, &spec), at(0.2));
+        assert_relative_eq!(reference.value(Function::Integrands(0), &at)[0], 0.4 * 6.0);
+        assert_relative_eq!(reference.derivative(Function::Integrands(0), Variable::Rate, &at)[..], [0.0, 0.4][..]);
+        let residual = reference.value(Function::Linearised(0), &at);
+        assert_relative_eq!(residual[..], [5.0 - 0.7, 0.4 * 6.0 + 3.0 * 0.4_f64.sin()][..], max_relative = 1e-15);
+        let by_rate = reference.derivative(Function::Linearised(0), Variable::Rate, &at);
+        assert_relative_eq!(by_rate[..], [1.0, 0.0, 0.0, 0.4][..]);
     }
 }

@@ -14,6 +14,7 @@ const SOURCES: &[(&str, &str)] = sources![
     "back/rust/derivatives.rs",
     "back/rust/dispatch.rs",
     "back/rust/info.rs",
+    "back/rust/measured.rs",
     "back/rust/mod.rs",
     "back/rust/names.rs",
     "back/rust/registry.rs",

@@ -12,6 +12,8 @@ pub enum Quantity {
     Integrated(usize),
     /// F = M k - f of a mode.
     Residual(usize),
+    /// The integrands; in a certain mode if its flow stands in for rates.
+    Integrands(Option<usize>),
     /// A switching function.
     Switch(usize),
     /// Guard of a transition.
@@ -26,7 +28,7 @@ pub enum Quantity {
     Embed,
     /// Image under the symmetry.
     Symmetry,
-    /// An observable; in a certain mode if it depends on rates.
+    /// An observable; in a certain mode if its flow stands in for rates.
     Observable(usize, Option<usize>),
     /// All measures.
     Measures,
@@ -39,8 +41,14 @@ pub enum Columns {
     None,
     /// The states.
     State,
+    /// The states, then the rates.
+    StateAndRates,
     /// The states, then the parameters.
     StateAndParameters,
+    /// The states, the parameters, t.
+    Along,
+    /// The states, the rates, the parameters, t.
+    AlongWithRates,
     /// The states, the parameters, tau, t.
     All,
     /// The states, the rates, the parameters, tau, t.
@@ -66,7 +74,10 @@ impl Columns {
         match self {
             Self::None => Vec::new(),
             Self::State => x.collect(),
+            Self::StateAndRates => x.chain(k).collect(),
             Self::StateAndParameters => x.chain(p).collect(),
+            Self::Along => x.chain(p).chain([Symbol::Time]).collect(),
+            Self::AlongWithRates => x.chain(k).chain(p).chain([Symbol::Time]).collect(),
             Self::All => x.chain(p).chain(times).collect(),
             Self::AllAndRates => x.chain(k).chain(p).chain(times).collect(),
             Self::Coordinates => {
@@ -108,7 +119,10 @@ pub fn list(model: &Validated) -> Vec<Function> {
             add(Quantity::Flow(mode), &[Columns::None, Columns::All, Columns::State]);
             add(Quantity::Integrated(mode), &[Columns::None, Columns::StateAndParameters]);
         }
-        add(Quantity::Residual(mode), &[Columns::None, Columns::AllAndRates]);
+        add(Quantity::Residual(mode), &[Columns::None, Columns::AllAndRates, Columns::StateAndRates]);
+    }
+    for mode in integrand_modes(model) {
+        add(Quantity::Integrands(mode), &[Columns::None, along(model)]);
     }
     for i in 0..m.switches.len() {
         add(Quantity::Switch(i), &[Columns::None, Columns::All]);
@@ -129,19 +143,40 @@ pub fn list(model: &Validated) -> Vec<Function> {
     }
     for i in 0..facts.observables.len() {
         for mode in observable_modes(model, i) {
-            add(Quantity::Observable(i, mode), &[Columns::None, Columns::All]);
+            add(Quantity::Observable(i, mode), &[Columns::None, all_of_rates(model)]);
         }
     }
     add(Quantity::Measures, &[Columns::None, Columns::Functionals]);
     functions
 }
 
+/// What integrands are differentiated by: the rates, too, where they are an argument.
+pub fn along(model: &Validated) -> Columns {
+    if model.facts().explicit { Columns::Along } else { Columns::AlongWithRates }
+}
+
+/// What observables are differentiated by: the rates, too, where they are an argument.
+pub fn all_of_rates(model: &Validated) -> Columns {
+    if model.facts().explicit { Columns::All } else { Columns::AllAndRates }
+}
+
 /// The modes in which an observable has a function of its own; one `None` when it is the same in all.
 pub fn observable_modes(model: &Validated, index: usize) -> Vec<Option<usize>> {
-    let m = model.model();
     let expr = model.facts().observables.get(index).copied();
-    let rates = expr.is_some_and(|expr| m.graph.depends(&[expr], |s| matches!(s, Symbol::Rate(_))));
-    if rates { (0..m.modes.len()).map(Some).collect() } else { vec![None] }
+    modes_of(model, expr.as_slice())
+}
+
+/// The same for the integrands; nothing when there are none.
+pub fn integrand_modes(model: &Validated) -> Vec<Option<usize>> {
+    let integrals = &model.facts().integrals;
+    if integrals.is_empty() { Vec::new() } else { modes_of(model, integrals) }
+}
+
+/// In an explicit model each mode's flow stands in for the rates, so what depends on them differs by mode.
+fn modes_of(model: &Validated, expressions: &[NodeId]) -> Vec<Option<usize>> {
+    let m = model.model();
+    let substituted = model.facts().explicit && m.graph.depends(expressions, |s| matches!(s, Symbol::Rate(_)));
+    if substituted { (0..m.modes.len()).map(Some).collect() } else { vec![None] }
 }
 
 /// The expressions of a quantity; new nodes are added to `graph`, which starts as the model's.
@@ -157,6 +192,7 @@ pub fn expressions(model: &Validated, graph: &mut Graph, quantity: Quantity) -> 
             (flow.iter().chain(&facts.integrals).copied().collect(), Some(flow))
         }
         Quantity::Residual(mode) => (m.modes.get(mode).map_or_else(Vec::new, |mode| residual(graph, mode)), None),
+        Quantity::Integrands(mode) => (facts.integrals.clone(), mode.and_then(flow_of)),
         Quantity::Switch(i) => (m.switches.get(i).map(|s| s.expr).into_iter().collect(), None),
         Quantity::Guard(i) => (transition(i).map(|t| t.guard).into_iter().collect(), rates_of(i)),
         Quantity::When(i) => (transition(i).and_then(|t| t.when).into_iter().collect(), rates_of(i)),

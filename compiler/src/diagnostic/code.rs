@@ -66,6 +66,7 @@ codes! {
     SuperfluousEquation "E0407" "an equation that does not belong here";
     ConstraintForm "E0408" "not a constraint";
     ProblemForm "E0409" "a problem needs exactly one objective and something to vary";
+    Mass "E0410" "a mass matrix that is singular everywhere";
     Unused "W0001" "something is defined and never used";
     ZeroDerivative "W0002" "a derivative that is always zero";
 }

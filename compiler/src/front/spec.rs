@@ -76,6 +76,17 @@ pub(crate) struct Function {
 #[derive(Clone, Debug)]
 pub(crate) struct Mode {
     pub(crate) flow: Vec<Named<Equation>>,
+    /// Rows of the mass matrix, each by the state whose flow it belongs to; none is the identity.
+    pub(crate) mass: Vec<Named<MassRow>>,
+}
+
+/// What stands at a row of a mass matrix.
+#[derive(Clone, Debug)]
+pub(crate) enum MassRow {
+    /// The diagonal entry; the others are 0.
+    Factor(Equation),
+    /// Entries by the state whose rate they multiply; the others are 0.
+    Entries(Vec<Named<Equation>>),
 }
 
 #[derive(Clone, Debug)]
@@ -86,6 +97,8 @@ pub(crate) struct Transition {
     pub(crate) direction: Option<Direction>,
     pub(crate) when: Option<Equation>,
     pub(crate) reset: Vec<Named<Equation>>,
+    /// Functions that vanish together with the guard, and the place of their key.
+    pub(crate) also_zero: Option<(Span, Vec<Equation>)>,
 }
 
 #[derive(Clone, Debug)]
@@ -122,9 +135,11 @@ impl Spec {
         let lets = self.lets.iter().map(|item| &item.value);
         let functions = self.functions.iter().filter_map(|item| item.value.body.as_ref());
         let flows = self.modes.iter().flat_map(|item| &item.value.flow).map(|item| &item.value);
+        let masses = self.modes.iter().flat_map(|item| &item.value.mass).flat_map(|row| row.value.equations());
         let transitions = self.transitions.iter().flat_map(|item| {
             let reset = item.value.reset.iter().map(|item| &item.value);
-            item.value.guard.iter().chain(&item.value.when).chain(reset)
+            let also_zero = item.value.also_zero.iter().flat_map(|(_, equations)| equations);
+            item.value.guard.iter().chain(&item.value.when).chain(reset).chain(also_zero)
         });
         let section = self
             .section
@@ -135,6 +150,18 @@ impl Spec {
             .problems
             .iter()
             .flat_map(|item| item.value.objective.iter().map(|(_, equation)| equation).chain(&item.value.subject_to));
-        lets.chain(functions).chain(flows).chain(transitions).chain(section).chain(measures).chain(problems)
+        let results = measures.chain(problems);
+        lets.chain(functions).chain(flows).chain(masses).chain(transitions).chain(section).chain(results)
+    }
+}
+
+impl MassRow {
+    /// Its entries.
+    fn equations(&self) -> impl Iterator<Item = &Equation> {
+        let (factor, entries) = match self {
+            Self::Factor(equation) => (Some(equation), &[][..]),
+            Self::Entries(entries) => (None, entries.as_slice()),
+        };
+        factor.into_iter().chain(entries.iter().map(|entry| &entry.value))
     }
 }

@@ -5,7 +5,7 @@
 //! ranges, start guesses, initial memory, titles, doc strings and problems do not. Nodes are numbered in the order of a
 //! depth-first visit from the equations, so that what is not reached does not shift any number.
 
-use super::{Graph, Model, Node, NodeId, Symbol, graph};
+use super::{AlsoZero, Graph, Model, Node, NodeId, Symbol, graph};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -97,6 +97,9 @@ impl<'a> Writer<'a> {
             }
             self.item("reset", &t.reset);
             self.item("memory reset", &t.memory_reset);
+            for AlsoZero { dimension, start, end, rate, .. } in &t.also_zero {
+                self.line(format_args!("also zero {dimension} functionals {start} {end} {rate}"));
+            }
         }
     }
 

@@ -141,6 +141,23 @@ pub struct Transition {
     pub reset: Vec<NodeId>,
     /// Post-value for each memory.
     pub memory_reset: Vec<NodeId>,
+    /// Other functions that are zero when it fires; empty but for the section's transition.
+    pub also_zero: Vec<AlsoZero>,
+}
+
+/// A function that vanishes together with a guard, by its functionals (indices into [`Model::functionals`]).
+#[derive(Clone, Debug)]
+pub struct AlsoZero {
+    /// As the user wrote it.
+    pub text: String,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Its value at the start of the map.
+    pub start: usize,
+    /// Its value just before the transition.
+    pub end: usize,
+    /// Its time derivative there.
+    pub rate: usize,
 }
 
 /// The Poincare section: just after a transition.

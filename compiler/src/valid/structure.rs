@@ -159,6 +159,10 @@ impl Check<'_> {
             self.require(t.reset.len() == n && t.memory_reset.len() == m.memory.len(), || {
                 format!("transition `{}` does not have one reset a state and memory entry", t.name)
             });
+            for zero in &t.also_zero {
+                let exist = [zero.start, zero.end, zero.rate].iter().all(|&i| i < m.functionals.len());
+                self.require(exist, || format!("`{}` of transition `{}` has no functionals", zero.text, t.name));
+            }
         }
         if let Some(section) = &m.section {
             let distinct: HashSet<_> = section.coordinates.iter().collect();
@@ -175,10 +179,9 @@ impl Check<'_> {
     fn modes(&mut self) {
         for mode in &self.model.modes {
             let place = format!("the flow of mode `{}`", mode.name);
-            // With a mass matrix only the residual form is generated, where the rate is an argument.
-            let allowed = Allowed { rate: mode.mass.is_some(), ..Allowed::FLOW };
+            // Rates enter by the mass matrix only, so that the residual is linear in them.
             for &root in mode.flow.iter().chain(mode.mass.iter().flatten().flatten()) {
-                self.expression(root, allowed, &place);
+                self.expression(root, Allowed::FLOW, &place);
             }
         }
     }
@@ -219,7 +222,7 @@ impl Check<'_> {
         for s in &m.switches {
             self.expression(s.expr, Allowed::FLOW, &format!("the condition `{}`", s.text));
         }
-        let allowed = Allowed { rate: m.modes.iter().all(is_explicit), ..Allowed::FLOW };
+        let allowed = Allowed { rate: true, ..Allowed::FLOW };
         for f in &m.functionals {
             self.expression(f.expr, allowed, "a measure's functional");
         }

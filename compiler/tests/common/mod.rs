@@ -57,28 +57,17 @@ pub fn every_operation() -> Model {
     model.transitions[0].to = 1;
     model.functionals.push(Functional { kind: FunctionalKind::Minimum, expr: rate });
     let value = model.graph.symbol(Symbol::Functional(model.functionals.len() - 1));
+    let product = model.graph.binary(Binary::Mul, rate, y);
+    model.functionals.push(Functional { kind: FunctionalKind::Integral, expr: product });
     let mut slowest = model.measures[0].clone();
     (slowest.name, slowest.expr) = ("slowest".into(), value);
     model.measures.push(slowest);
     model
 }
 
-/// A model with a mass matrix: a rod on a cart.
+/// A model with a mass matrix, and measures of rates: a rod on a cart.
 pub fn with_mass_matrix() -> Model {
-    let mut model = parse(
-        "cart",
-        "spec = 1\nname = \"cart\"\n\
-         [parameters]\nm = { value = \"2\" }\nl = { value = \"0.7\" }\n\
-         [state]\nv = { unit = \"1\" }\nw = { unit = \"1\" }\nphi = { unit = \"1\" }\n\
-         [modes.run.flow]\nv = \"sin(phi)*w^2*l*1 [Hz]\"\nw = \"-cos(phi)*1 [Hz]\"\nphi = \"w*1 [Hz]\"\n",
-    );
-    let phi = model.graph.symbol(Symbol::State(2));
-    let [mass, length] = [0, 1].map(|i| model.graph.symbol(Symbol::Parameter(i)));
-    let (zero, one) = (model.graph.constant(0.0), model.graph.constant(1.0));
-    let cosine = model.graph.unary(Unary::Cos, phi);
-    let coupling = model.graph.binary(Binary::Mul, length, cosine);
-    model.modes[0].mass = Some(vec![vec![mass, coupling, zero], vec![cosine, length, zero], vec![zero, zero, one]]);
-    model
+    parse("cart", &std::fs::read_to_string(test_file("golden/cart.toml")).unwrap())
 }
 
 /// The texts that are generated for some models.

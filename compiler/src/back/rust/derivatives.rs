@@ -1,11 +1,11 @@
 //! The private functions that compute a value with all its first derivatives in one pass.
 
 use super::body::{Body, constant};
-use super::values::{StateFunction, components, observable_name, parameters, rate_argument, states};
+use super::values::{StateFunction, components, parameters, rate_argument, states};
 use super::{Context, EmitError, names, text};
 use crate::casadi::Quantity;
 use crate::casadi::exchange::Input;
-use crate::casadi::functions::{Columns, observable_modes};
+use crate::casadi::functions::Columns;
 use crate::ir::Symbol;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -20,6 +20,7 @@ pub(super) fn functions(context: &Context<'_>) -> Result<Vec<TokenStream>, EmitE
             items.push(jacobian(context, Quantity::Flow(i), &names::function("d_flow", &mode.name), doc)?);
         }
         items.push(residual(context, i, &mode.name)?);
+        items.push(linearised(context, i, &mode.name)?);
     }
     for i in 0..model.switches.len() {
         let doc = format!("Switching function {i} with all first derivatives.");
@@ -36,13 +37,6 @@ pub(super) fn functions(context: &Context<'_>) -> Result<Vec<TokenStream>, EmitE
         items.push(embed(context, &section.coordinates)?);
         if section.symmetry.is_some() {
             items.push(symmetry(context)?);
-        }
-    }
-    for i in 0..context.validated.facts().observables.len() {
-        for mode in observable_modes(context.validated, i) {
-            let (name, place) = observable_name(model, "d_observable", i, mode);
-            let doc = format!("Observable {i}{place} with all first derivatives.");
-            items.push(gradient(context, Quantity::Observable(i, mode), &name, doc)?);
         }
     }
     items.push(measures(context)?);
@@ -109,6 +103,25 @@ fn residual(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStrea
         result: quote!(model::ResidualJacobian {
             value: #value, dx: #dx, dk: #dk, dp: #dp, dtau: #dtau, dt: #dt,
         }),
+    };
+    Ok(function.print(context, text::counts(program.counts())))
+}
+
+fn linearised(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStream, EmitError> {
+    let program = context.program(Quantity::Residual(mode), Columns::StateAndRates)?;
+    let body = Body::new(context, program);
+    let n = context.model().states.len();
+    let (value, dx, dk) = (body.components(0..n), body.columns(n, 0..n), body.columns(n, n..2 * n));
+    let (arguments, bindings) = rate_argument(context.model(), &body);
+    let function = StateFunction {
+        name: &names::function("linearised", name),
+        doc: vec![format!("Residual F = M k - f of mode `{name}` with its derivatives by state and rate, by columns.")],
+        body: &body,
+        arguments,
+        bindings,
+        returns: quote!(model::Linearised<S, STATES>),
+        otherwise: quote!(nan_linearised()),
+        result: quote!(model::Linearised { value: #value, dx: #dx, dk: #dk }),
     };
     Ok(function.print(context, text::counts(program.counts())))
 }

@@ -1,9 +1,7 @@
 //! `impl Model`: every function of the trait picks the private function of the mode, transition, switch or observable
 //! that it is asked for, and answers NaN to an index out of range.
 
-use super::values::observable_name;
-use super::{Context, EmitError, names, text};
-use crate::casadi::functions::observable_modes;
+use super::{Context, EmitError, measured, names, text};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -12,15 +10,16 @@ pub(super) fn implementation(context: &Context<'_>) -> Result<TokenStream, EmitE
     let name = names::type_name(context.model());
     let flows = flows(context);
     let residuals = residuals(context);
+    let (integrands, observables) = measured::dispatch(context);
     let events = events(context);
     let section = section(context);
-    let observables = observables(context);
     let measures = measures(context);
     Ok(quote! {
         impl model::Model<STATES, PARAMETERS, INTEGRALS> for #name {
             const INFO: &'static model::ModelInfo = &INFO;
             #flows
             #residuals
+            #integrands
             #events
             #section
             #observables
@@ -118,6 +117,8 @@ fn residuals(context: &Context<'_>) -> TokenStream {
     let derivatives = mode_names(context, "d_residual", false);
     let residual = dispatch(&quote!(mode), &values, &arguments, &quote!(nan_state()));
     let d_residual = dispatch(&quote!(mode), &derivatives, &arguments, &quote!(nan_residual_jacobian()));
+    let linearised = mode_names(context, "linearised", false);
+    let linearised = dispatch(&quote!(mode), &linearised, &arguments, &quote!(nan_linearised()));
     quote! {
         fn residual<S: scalar::Scalar>(
             mode: usize, x: &[S; STATES], k: &[S; STATES], env: &model::Env<'_, S, PARAMETERS>,
@@ -129,6 +130,12 @@ fn residuals(context: &Context<'_>) -> TokenStream {
             mode: usize, x: &[S; STATES], k: &[S; STATES], env: &model::Env<'_, S, PARAMETERS>,
         ) -> model::ResidualJacobian<S, STATES, PARAMETERS> {
             #d_residual
+        }
+
+        fn residual_linearised<S: scalar::Scalar>(
+            mode: usize, x: &[S; STATES], k: &[S; STATES], env: &model::Env<'_, S, PARAMETERS>,
+        ) -> model::Linearised<S, STATES> {
+            #linearised
         }
     }
 }
@@ -275,42 +282,6 @@ fn identity_jacobian(context: &Context<'_>) -> TokenStream {
             dt: [zero; STATES],
         }
     }
-}
-
-fn observables(context: &Context<'_>) -> TokenStream {
-    let arms = |prefix: &str| -> Vec<TokenStream> {
-        let modes: Vec<_> = (0..context.model().modes.len()).map(text::count).collect();
-        (0..context.validated.facts().observables.len())
-            .flat_map(|i| observable_modes(context.validated, i).into_iter().map(move |mode| (i, mode)))
-            .map(|(i, mode)| {
-                let (name, _) = observable_name(context.model(), prefix, i, mode);
-                let i = text::count(i);
-                match mode.map(text::count) {
-                    Some(mode) => quote!((#i, #mode) => #name(x, env),),
-                    None => quote!((#i, #(#modes)|*) => #name(x, env),),
-                }
-            })
-            .collect()
-    };
-    let function = |name: &str, prefix: &str, returns: TokenStream, otherwise: TokenStream| {
-        let (name, arms) = (quote::format_ident!("{name}"), arms(prefix));
-        let body = if arms.is_empty() {
-            quote!(let _ = (index, mode, x, env); #otherwise)
-        } else {
-            quote!(match (index, mode) { #(#arms)* _ => #otherwise })
-        };
-        quote! {
-            fn #name<S: scalar::Scalar>(
-                index: usize, mode: usize, x: &[S; STATES], env: &model::Env<'_, S, PARAMETERS>,
-            ) -> #returns {
-                #body
-            }
-        }
-    };
-    let value = function("observable", "observable", quote!(S), quote!(nan()));
-    let gradient = quote!(model::Gradient<S, STATES, PARAMETERS>);
-    let derivative = function("observable_gradient", "d_observable", gradient, quote!(nan_gradient()));
-    quote!(#value #derivative)
 }
 
 fn measures(context: &Context<'_>) -> TokenStream {

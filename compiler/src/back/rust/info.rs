@@ -1,8 +1,9 @@
 //! Names, units and structure of a model as a constant.
 
+use super::values::one_line;
 use super::{Context, text};
 use crate::dimension::Dimension;
-use crate::ir::{Direction, FunctionalKind};
+use crate::ir::{AlsoZero, Direction, FunctionalKind};
 use crate::valid::Reference;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -24,7 +25,10 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
     });
     let transitions = model.transitions.iter().map(|t| {
         let (name, from, to, direction) = (&t.name, text::count(t.from), text::count(t.to), direction(t.direction));
-        quote!(model::TransitionInfo { name: #name, from: #from, to: #to, direction: model::Direction::#direction })
+        let also_zero = t.also_zero.iter().map(also_zero);
+        quote!(model::TransitionInfo {
+            name: #name, from: #from, to: #to, direction: model::Direction::#direction, also_zero: &[#(#also_zero),*],
+        })
     });
     let coordinates = model.section.iter().flat_map(|s| &s.coordinates).map(|&i| text::count(i));
     let after = match &model.section {
@@ -62,6 +66,12 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
 fn quantity(name: &str, dimension: Dimension) -> TokenStream {
     let si = dimension.to_string();
     quote!(model::Quantity { name: #name, si: #si })
+}
+
+fn also_zero(zero: &AlsoZero) -> TokenStream {
+    let (text, si) = (one_line(&zero.text), zero.dimension.to_string());
+    let [start, end, rate] = [zero.start, zero.end, zero.rate].map(text::count);
+    quote!(model::AlsoZero { text: #text, si: #si, start: #start, end: #end, rate: #rate })
 }
 
 fn direction(direction: Direction) -> proc_macro2::Ident {

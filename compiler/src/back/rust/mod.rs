@@ -8,6 +8,7 @@ mod body;
 mod derivatives;
 mod dispatch;
 mod info;
+mod measured;
 mod names;
 mod registry;
 mod tangent;
@@ -84,6 +85,7 @@ pub fn emit(validated: &Validated, programs: &[(Function, Program)], options: &O
     items.push(dispatch::implementation(&context)?);
     items.extend(values::functions(&context)?);
     items.extend(derivatives::functions(&context)?);
+    items.extend(measured::functions(&context)?);
     items.extend(tangent::functions(&context)?);
     items.extend(not_a_number());
     let mut file = head(validated.model())?;
@@ -166,6 +168,19 @@ fn not_a_number() -> Vec<TokenStream> {
             }
         },
         quote! {
+            /// A gradient by state and rate of NaN.
+            fn nan_rate_gradient<S: scalar::Scalar>() -> model::RateGradient<S, STATES, PARAMETERS> {
+                model::RateGradient {
+                    value: nan(),
+                    dx: [nan(); STATES],
+                    dk: [nan(); STATES],
+                    dp: [nan(); PARAMETERS],
+                    dtau: nan(),
+                    dt: nan(),
+                }
+            }
+        },
+        quote! {
             /// A Jacobian of NaN.
             fn nan_jacobian<S: scalar::Scalar>() -> model::Jacobian<S, STATES, PARAMETERS> {
                 model::Jacobian {
@@ -175,6 +190,12 @@ fn not_a_number() -> Vec<TokenStream> {
                     dtau: nan_state(),
                     dt: nan_state(),
                 }
+            }
+        },
+        quote! {
+            /// A linearised residual of NaN.
+            fn nan_linearised<S: scalar::Scalar>() -> model::Linearised<S, STATES> {
+                model::Linearised { value: nan_state(), dx: [nan_state(); STATES], dk: [nan_state(); STATES] }
             }
         },
         quote! {

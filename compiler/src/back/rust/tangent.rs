@@ -1,13 +1,15 @@
-//! The hot path: flow (and integrands) fused with any number of variational columns.
+//! The hot path: flow and integrands fused with any number of variational columns, and the integrands alone along
+//! directions.
 //!
 //! The values and the nonzero derivatives are computed once, as one straight-line program; then each column c gets the
 //! sparse product (d./dx) v_c + (d./dp) w_c, with structurally nonzero entries only.
 
 use super::body::{Body, constant};
+use super::measured::{integrands_name, optional_rates};
 use super::values::{StateFunction, parameters, states};
 use super::{Context, EmitError, names, text};
 use crate::casadi::Quantity;
-use crate::casadi::functions::Columns;
+use crate::casadi::functions::{Columns, along, integrand_modes};
 use crate::casadi::program::{Counts, Program};
 use crate::ir::Symbol;
 use proc_macro2::TokenStream;
@@ -21,6 +23,9 @@ pub(super) fn functions(context: &Context<'_>) -> Result<Vec<TokenStream>, EmitE
             items.push(flow(context, i, &mode.name)?);
             items.push(integrated(context, i, &mode.name)?);
         }
+    }
+    for mode in integrand_modes(context.validated) {
+        items.push(integrands(context, mode)?);
     }
     Ok(items)
 }
@@ -94,6 +99,40 @@ fn integrated(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStr
     Ok(with_columns(function.print(context, products.counts())))
 }
 
+fn integrands(context: &Context<'_>, mode: Option<usize>) -> Result<TokenStream, EmitError> {
+    let (model, by) = (context.model(), along(context.validated));
+    let program = context.program(Quantity::Integrands(mode), by)?;
+    let body = Body::new(context, program);
+    let q = context.validated.facts().integrals.len();
+    let products = Products::new(context, &body, program, by);
+    let (values, rows) = (body.components(0..q), products.rows(0..q));
+    let (name, place) = integrands_name(model, "tangent_integrands", mode);
+    let rates: Vec<Symbol> = (0..model.states.len()).map(Symbol::Rate).collect();
+    let [dx, dk, dp] = [states(model), rates, parameters(model)].map(|symbols| products.element(&symbols));
+    let dt = if products.uses(Symbol::Time) { quote!(&dt) } else { quote!(_) };
+    let zero = constant(0.0);
+    let (mut arguments, bindings) = optional_rates(context, &body);
+    arguments.extend(quote!(along: &model::Directions<'_, S, STATES, PARAMETERS, C>,));
+    let function = StateFunction {
+        name: &name,
+        doc: vec![format!("The integrands{place} and their derivatives along each direction.")],
+        body: &body,
+        arguments,
+        bindings,
+        returns: quote!(([S; INTEGRALS], [[S; INTEGRALS]; C])),
+        otherwise: quote!(([nan(); INTEGRALS], [[nan(); INTEGRALS]; C])),
+        result: quote! {
+            let mut products = [[#zero; INTEGRALS]; C];
+            let directions = along.dx.iter().zip(along.dk).zip(along.dp).zip(along.dt);
+            for (product, (((#dx, #dk), #dp), #dt)) in products.iter_mut().zip(directions) {
+                *product = #rows;
+            }
+            (#values, products)
+        },
+    };
+    Ok(with_columns(function.print(context, products.counts())))
+}
+
 /// Makes a printed function generic over the number of columns, and a candidate for inlining.
 fn with_columns(function: TokenStream) -> TokenStream {
     // The printer of state functions knows one type parameter; the number of columns is added in the tree, not the text.
@@ -147,12 +186,21 @@ impl<'a> Products<'a> {
         sum.unwrap_or_else(|| constant(0.0))
     }
 
+    /// Whether the variation of a symbol occurs in a product.
+    fn uses(&self, symbol: Symbol) -> bool {
+        self.program.jacobian.iter().any(|entry| self.symbols.get(entry.column) == Some(&symbol))
+    }
+
+    /// The pattern for a reference to a column; `_` when none of its components occurs.
+    fn element(&self, symbols: &[Symbol]) -> TokenStream {
+        let pattern = self.pattern(symbols);
+        if symbols.iter().any(|&symbol| self.uses(symbol)) { quote!(&#pattern) } else { quote!(_) }
+    }
+
     /// The pattern that binds the components of a column that occur in a product.
     fn pattern(&self, symbols: &[Symbol]) -> TokenStream {
-        let used =
-            |symbol: &Symbol| self.program.jacobian.iter().any(|entry| self.symbols.get(entry.column) == Some(symbol));
         let names = symbols.iter().map(|symbol| {
-            if used(symbol) {
+            if self.uses(*symbol) {
                 let name = names::variation(self.context.model(), *symbol);
                 quote!(#name)
             } else {

@@ -1,11 +1,10 @@
-//! The private functions that compute values: flow, residual, switching functions, guards, resets, section, observables,
-//! measures.
+//! The private functions that compute values: flow, residual, switching functions, guards, resets, section, measures.
 
 use super::body::Body;
 use super::{Context, EmitError, names, text};
 use crate::casadi::Quantity;
 use crate::casadi::exchange::Input;
-use crate::casadi::functions::{Columns, observable_modes};
+use crate::casadi::functions::Columns;
 use crate::dimension::Dimension;
 use crate::ir::{Model, Symbol};
 use proc_macro2::{Ident, TokenStream};
@@ -42,22 +41,8 @@ pub(super) fn functions(context: &Context<'_>) -> Result<Vec<TokenStream>, EmitE
             items.push(symmetry(context)?);
         }
     }
-    for i in 0..context.validated.facts().observables.len() {
-        for mode in observable_modes(context.validated, i) {
-            let (name, place) = observable_name(model, "observable", i, mode);
-            let doc = format!("Observable {i}{place}.");
-            items.push(scalar(context, Quantity::Observable(i, mode), &name, doc)?);
-        }
-    }
     items.push(measures(context)?);
     Ok(items)
-}
-
-/// Name of an observable's function, and where it holds, for the documentation.
-pub(super) fn observable_name(model: &Model, prefix: &str, index: usize, mode: Option<usize>) -> (Ident, String) {
-    let mode = mode.and_then(|mode| model.modes.get(mode)).map(|mode| mode.name.as_str());
-    let place = mode.map(|mode| format!(" in mode `{mode}`")).unwrap_or_default();
-    (names::numbered(prefix, index, mode), place)
 }
 
 /// A function of state and environment.
@@ -116,7 +101,7 @@ pub(super) fn parameters(model: &Model) -> Vec<Symbol> {
 }
 
 /// Text in a documentation line.
-fn one_line(text: &str) -> String {
+pub(super) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::front::parser::shortened;
 use crate::front::syntax::{Comparison, Expr, ExprKind, Logic};
-use crate::ir::{Binary, Node, NodeId, Switch, Unary};
+use crate::ir::{Binary, Node, NodeId, Switch, Symbol, Unary};
 use crate::source::Span;
 
 /// Two branches.
@@ -169,6 +169,12 @@ impl Lowering<'_> {
         }
         if context.place.style() == Style::Immediate {
             return self.model.graph.add(Node::Choose { margin: function, then, otherwise });
+        }
+        if self.model.graph.depends(&[function], |symbol| matches!(symbol, Symbol::Rate(_))) {
+            let message = "this switches where something made of rates is zero, which cannot be located";
+            let help = "decide by states; for the largest magnitude take `cycle_max(x)` and `cycle_min(x)` apart";
+            self.report(Diagnostic::error(Code::NotAvailable, message).at(span, "").help(help), context);
+            return then;
         }
         let (switch, reversed) = self.switch(function, span);
         let (then, otherwise) = if reversed { (otherwise, then) } else { (then, otherwise) };

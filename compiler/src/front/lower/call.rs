@@ -10,8 +10,8 @@ use super::value::{Place, Uses, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::{Dimension, Exponent};
 use crate::front::names::{FUNCTIONALS, FUNCTIONS};
-use crate::front::syntax::{Call, Expr, ExprKind};
-use crate::ir::{Binary, Functional, FunctionalKind, Node, NodeId, Symbol, Unary};
+use crate::front::syntax::Call;
+use crate::ir::{Binary, Functional, FunctionalKind, NodeId, Symbol, Unary};
 use crate::source::Span;
 
 impl Lowering<'_> {
@@ -54,12 +54,7 @@ impl Lowering<'_> {
         match (name, call.arguments.as_slice()) {
             ("if", [condition, then, otherwise]) => self.if_(condition, then, otherwise, context),
             ("d", [expr, variable]) => self.partial(expr, variable, span, context),
-            ("dot", _) => {
-                let message = "`dot(...)` is not supported yet";
-                let error = Diagnostic::error(Code::Unsupported, message).at(span, "");
-                self.report(error.help("write out the right-hand side of the flow"), context);
-                None
-            }
+            ("dot", [expr]) => self.rate_of(expr, span, context),
             ("min" | "max" | "atan2", [a, b]) => {
                 let (left, right) = (self.expr(a, context), self.expr(b, context));
                 let (a, b) = (Operand { value: left?, span: a.span }, Operand { value: right?, span: b.span });
@@ -119,55 +114,6 @@ impl Lowering<'_> {
         Some(Value { node, dimension: Some(Dimension::NONE), ..a.value })
     }
 
-    /// `d(expr, x)`: the partial derivative, all other symbols held.
-    fn partial(&mut self, expr: &Expr, variable: &Expr, span: Span, context: Context<'_>) -> Option<Value> {
-        let value = self.expr(expr, context);
-        let variable_symbol = self.variable(variable, context);
-        let (value, (symbol, by)) = (value?, variable_symbol?);
-        if value.uses.any(Uses::RESULT) {
-            let message = "what is known only after a map has no derivative here";
-            self.report(Diagnostic::error(Code::NotAvailable, message).at(expr.span, ""), context);
-            return None;
-        }
-        let dimension = match value.dimension {
-            Some(dimension) => Some(self.in_range(dimension.div(by), span, context)?),
-            None => None,
-        };
-        if !self.model.graph.depends(&[value.node], |other| other == symbol) {
-            let message = format!("{} does not depend on {}", self.quote(expr.span), self.quote(variable.span));
-            let warning = Diagnostic::warning(Code::ZeroDerivative, message).at(span, "this derivative is always 0");
-            self.report(warning, context);
-            return Some(self.constant(0.0, dimension));
-        }
-        let node = self.model.graph.add(Node::Partial(value.node, symbol));
-        Some(Value { node, dimension, ..value })
-    }
-
-    /// What to differentiate with respect to, and its dimension.
-    fn variable(&mut self, variable: &Expr, context: Context<'_>) -> Option<(Symbol, Dimension)> {
-        let name = match &variable.kind {
-            ExprKind::Name(name) => name.as_str(),
-            _ => "",
-        };
-        let argument = context.frame.is_some_and(|frame| frame.names.iter().any(|argument| argument.value == name));
-        let definition = self.scope.get(name).filter(|_| !argument);
-        match (name, definition) {
-            ("tau", _) => return Some((Symbol::Tau, Dimension::TIME)),
-            ("t", _) => return Some((Symbol::Time, Dimension::TIME)),
-            (_, Some(Definition { entity: Entity::State(i), dimension, .. })) => {
-                return Some((Symbol::State(i), dimension?));
-            }
-            (_, Some(Definition { entity: Entity::Parameter(i), dimension, .. })) => {
-                return Some((Symbol::Parameter(i), dimension?));
-            }
-            _ => {}
-        }
-        let message = format!("{} is not a variable to differentiate with respect to", self.quote(variable.span));
-        let error = Diagnostic::error(Code::WithRespectTo, message).at(variable.span, "");
-        self.report(error.help("write the name of a state or parameter, `tau` or `t`"), context);
-        None
-    }
-
     fn functional_call(&mut self, call: &Call, context: Context<'_>) -> Option<Value> {
         self.count(call, 1, call.name_span, context)?;
         match context.place {
@@ -202,14 +148,19 @@ impl Lowering<'_> {
         Some(self.functional(kind, argument.node, dimension))
     }
 
-    /// The functional of an expression; one that is there already is shared.
+    /// The value of a functional.
     pub(super) fn functional(&mut self, kind: FunctionalKind, expr: NodeId, dimension: Option<Dimension>) -> Value {
+        let index = self.functional_index(kind, expr);
+        Value { node: self.model.graph.symbol(Symbol::Functional(index)), dimension, uses: Uses::FUNCTIONAL }
+    }
+
+    /// The index of the functional of an expression; one that is there already is shared.
+    pub(super) fn functional_index(&mut self, kind: FunctionalKind, expr: NodeId) -> usize {
         let functionals = &mut self.model.functionals;
-        let index = *self.functionals.entry((kind, expr)).or_insert_with(|| {
+        *self.functionals.entry((kind, expr)).or_insert_with(|| {
             functionals.push(Functional { kind, expr });
             functionals.len() - 1
-        });
-        Value { node: self.model.graph.symbol(Symbol::Functional(index)), dimension, uses: Uses::FUNCTIONAL }
+        })
     }
 
     /// A function of the spec, its body lowered with the arguments in place.

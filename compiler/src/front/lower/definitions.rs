@@ -123,7 +123,7 @@ impl Lowering<'_> {
         for (i, item) in self.definitions.lets.iter().enumerate() {
             if !self.lets.contains_key(&(i, Style::Frozen)) && !self.lets.contains_key(&(i, Style::Immediate)) {
                 let name = NameUse { name: item.name.clone(), span: item.span, called: false, in_functional: true };
-                self.lower_lets(&[name], Place::Dynamics);
+                self.lower_lets(&[name], Place::Functional);
             }
         }
     }

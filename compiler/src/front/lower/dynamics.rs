@@ -1,14 +1,15 @@
 //! Modes with their flows, transitions with guards, conditions and resets.
 
 use super::lowering::{Expected, Lowering};
+use super::mass::Mass;
 use super::scope::{Definition, Entity};
-use super::value::{Place, Uses, Value};
+use super::value::{Place, Rates, Uses, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::front::names::suggest;
 use crate::front::parser::shortened;
 use crate::front::read::list;
-use crate::front::spec::{Equation, Named, Spec, Transition};
+use crate::front::spec::{Equation, Mode, Named, Spec, Transition};
 use crate::front::text::Text;
 use crate::ir::{self, Binary, Node, NodeId, Symbol, Unary};
 use crate::source::Span;
@@ -18,8 +19,10 @@ impl Lowering<'_> {
     pub(super) fn modes(&mut self, spec: &Spec) {
         let has_state = self.states_of_modes(spec);
         for (mode, has_state) in spec.modes.iter().zip(has_state) {
-            let flow = self.flow(mode.name.as_str(), mode.span, &mode.value.flow, &has_state);
-            self.model.modes.push(ir::Mode { name: mode.name.clone(), flow, mass: None, has_state });
+            let mass = self.mass(mode, &has_state);
+            let flow = self.flow(mode, &has_state, mass.as_ref());
+            let mass = mass.map(|mass| mass.rows);
+            self.model.modes.push(ir::Mode { name: mode.name.clone(), flow, mass, has_state });
         }
     }
 
@@ -107,24 +110,31 @@ impl Lowering<'_> {
     }
 
     /// Reports an equation for a state that the mode does not have.
-    fn absent(&mut self, equation: &Named<Equation>, mode: &str) {
+    pub(super) fn absent(&mut self, equation: &Named<Equation>, mode: &str) {
         let message = format!("mode `{mode}` does not have the state `{}`", equation.name);
         let error = Diagnostic::error(Code::SuperfluousEquation, message).at(equation.span, "");
         self.diagnostics.push(error.help(format!("remove the equation, or add `{mode}` to the state's `modes`")));
     }
 
-    fn flow(&mut self, mode: &str, span: Span, equations: &[Named<Equation>], has_state: &[bool]) -> Vec<NodeId> {
+    fn flow(&mut self, item: &Named<Mode>, has_state: &[bool], mass: Option<&Mass>) -> Vec<NodeId> {
+        let mode = item.name.as_str();
         let zero = self.model.graph.constant(0.0);
         let mut flow = vec![zero; has_state.len()];
         let mut given = vec![false; has_state.len()];
-        for equation in equations {
+        for equation in &item.value.flow {
             let state = self.state_of(equation, "flow");
-            let expected = Expected {
-                dimension: state.and_then(|i| self.state_dimension(i)?.div(Dimension::TIME)),
-                what: format!("the flow of `{}`", equation.name),
-                help: "a flow is the state's rate of change: its unit divided by seconds".to_owned(),
+            let row = state.and_then(|i| mass?.dimensions.get(i).copied().flatten());
+            let help = match row {
+                Some(_) => "a row of the mass matrix times the rates has the dimension of its flow",
+                None => "a flow is the state's rate of change: its unit divided by seconds",
             };
-            let value = self.checked(&equation.value, Place::Dynamics, &expected);
+            let identity = || state.and_then(|i| self.state_dimension(i)?.div(Dimension::TIME));
+            let expected = Expected {
+                dimension: row.unwrap_or_else(identity),
+                what: format!("the flow of `{}`", equation.name),
+                help: help.to_owned(),
+            };
+            let value = self.checked(&equation.value, Place::Flow, &expected);
             let Some(i) = state else { continue };
             if has_state.get(i) == Some(&false) {
                 self.absent(equation, mode);
@@ -135,7 +145,7 @@ impl Lowering<'_> {
         for i in (0..has_state.len()).filter(|&i| has_state[i] && !given[i]) {
             let name = self.state_name(i);
             let message = format!("mode `{mode}` has no flow for the state `{name}`");
-            let error = Diagnostic::error(Code::MissingEquation, message).at(span, "");
+            let error = Diagnostic::error(Code::MissingEquation, message).at(item.span, "");
             let help = format!("add `{name} = \"...\"` to [modes.{mode}.flow], `\"0\"` if it stays constant");
             self.diagnostics.push(error.help(help));
         }
@@ -145,13 +155,15 @@ impl Lowering<'_> {
     /// Lowers `[transitions]`.
     pub(super) fn transitions(&mut self, spec: &Spec) {
         for item in &spec.transitions {
-            let Transition { from, to, guard, direction, when, reset } = &item.value;
+            let Transition { from, to, guard, direction, when, reset, also_zero: _ } = &item.value;
             let from = from.as_ref().and_then(|name| self.mode(spec, name));
             let to = to.as_ref().and_then(|name| self.mode(spec, name));
-            let guard = guard.as_ref().and_then(|guard| self.guard(guard));
-            let when = when.as_ref().and_then(|when| self.condition(when, Place::When));
+            let has_mass = from.and_then(|from| self.model.modes.get(from)).is_some_and(|mode| mode.mass.is_some());
+            let rates = if has_mass { Rates::Unknown } else { Rates::Known };
+            let guard = guard.as_ref().and_then(|guard| self.guard(guard, rates));
+            let when = when.as_ref().and_then(|when| self.condition(when, Place::When(rates)));
             let has_state = to.and_then(|to| self.model.modes.get(to)).map(|mode| mode.has_state.clone());
-            let (reset, memory_reset) = self.reset(item, reset, has_state.as_deref());
+            let (reset, memory_reset) = self.reset(item, reset, has_state.as_deref(), rates);
             let zero = self.model.graph.constant(0.0);
             self.model.transitions.push(ir::Transition {
                 name: item.name.clone(),
@@ -162,19 +174,25 @@ impl Lowering<'_> {
                 when: when.map(|value| value.node),
                 reset,
                 memory_reset,
+                also_zero: Vec::new(),
             });
         }
     }
 
-    fn guard(&mut self, guard: &Equation) -> Option<Value> {
-        let value = self.equation(guard, Place::Dynamics)?;
+    fn guard(&mut self, guard: &Equation, rates: Rates) -> Option<Value> {
+        let value = self.equation(guard, Place::Event(rates))?;
+        self.moves(value, guard, "this guard").then_some(value)
+    }
+
+    /// Whether a function that is to pass through zero depends on state or time; reports one that does not.
+    pub(super) fn moves(&mut self, value: Value, guard: &Equation, what: &str) -> bool {
         if value.uses.any(Uses::STATE.and(Uses::TAU).and(Uses::TIME)) {
-            return Some(value);
+            return true;
         }
-        let message = "this guard depends on neither state nor time, so it never passes through zero";
+        let message = format!("{what} depends on neither state nor time, so it never passes through zero");
         let error = Diagnostic::error(Code::GuardConstant, message).at(self.root_span(guard), "");
         self.diagnostics.push(error.help("write what vanishes when the transition happens, as in `length - reach`"));
-        None
+        false
     }
 
     /// A condition as a margin.
@@ -190,6 +208,7 @@ impl Lowering<'_> {
         item: &Named<Transition>,
         equations: &[Named<Equation>],
         has_state: Option<&[bool]>,
+        rates: Rates,
     ) -> (Vec<NodeId>, Vec<NodeId>) {
         let zero = self.model.graph.constant(0.0);
         let mut reset = vec![zero; self.model.states.len()];
@@ -198,7 +217,7 @@ impl Lowering<'_> {
             (0..self.model.memory.len()).map(|i| self.model.graph.symbol(Symbol::Memory(i))).collect();
         for equation in equations {
             if let Some(Definition { entity: Entity::Memory(i), .. }) = self.scope.get(&equation.name) {
-                if let Some(node) = self.memory_reset(equation) {
+                if let Some(node) = self.memory_reset(equation, rates) {
                     memory[i] = node;
                 }
                 continue;
@@ -209,7 +228,7 @@ impl Lowering<'_> {
                 what: format!("the reset of `{}`", equation.name),
                 help: "a reset gives the state's value after the transition, in its own unit".to_owned(),
             };
-            let value = self.checked(&equation.value, Place::Dynamics, &expected);
+            let value = self.checked(&equation.value, Place::Event(rates), &expected);
             let Some(i) = state else { continue };
             if has_state.is_some_and(|has| has.get(i) == Some(&false)) {
                 let target = item.value.to.as_ref().map_or("", |to| to.value.as_str());
@@ -232,11 +251,11 @@ impl Lowering<'_> {
         self.diagnostics.push(error.help(help));
     }
 
-    fn memory_reset(&mut self, equation: &Named<Equation>) -> Option<NodeId> {
+    fn memory_reset(&mut self, equation: &Named<Equation>, rates: Rates) -> Option<NodeId> {
         let what = format!("the memory `{}`", equation.name);
         let expected =
             Expected { dimension: Some(Dimension::NONE), what, help: "a memory is a whole number".to_owned() };
-        let value = self.checked(&equation.value, Place::Dynamics, &expected)?;
+        let value = self.checked(&equation.value, Place::Event(rates), &expected)?;
         if self.is_whole(value.node) {
             return Some(value.node);
         }

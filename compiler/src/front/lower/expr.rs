@@ -170,7 +170,7 @@ impl Lowering<'_> {
     }
 
     /// Passes on a value that exists in this place; else says why not.
-    fn available(&mut self, value: Value, name: &str, span: Span, context: Context<'_>) -> Option<Value> {
+    pub(super) fn available(&mut self, value: Value, name: &str, span: Span, context: Context<'_>) -> Option<Value> {
         if value.uses.only(context.place.available()) {
             return Some(value);
         }
@@ -185,7 +185,15 @@ impl Lowering<'_> {
             ),
             Place::Section => (
                 format!("`{name}` has no value on the section, which knows states and parameters only"),
-                "write it without memory, `tau` and `t`".to_owned(),
+                "write it without memory, rates, `tau` and `t`".to_owned(),
+            ),
+            Place::Flow if value.uses.any(Uses::RATE) => (
+                format!("`{name}` needs a rate, which flow and mass matrix are there to determine"),
+                "move the factor of the rate to `[modes.NAME.mass]`; the flow is what remains".to_owned(),
+            ),
+            Place::Event(_) | Place::When(_) if value.uses.any(Uses::RATE) => (
+                format!("`{name}` needs a rate, which transitions do not know in a mode with a mass matrix"),
+                "write it with states: where the mass matrix is singular, a rate may have no value".to_owned(),
             ),
             _ => (
                 format!("`{name}` is known only after a whole map"),

@@ -1,13 +1,16 @@
 //! Spec to model: names resolved, dimensions checked, expressions lowered into one graph.
 
+mod also_zero;
 mod branch;
 mod call;
 mod declare;
 mod definitions;
+mod derivative;
 mod dynamics;
 mod expr;
 mod fold;
 mod lowering;
+mod mass;
 mod measures;
 mod order;
 mod problems;
@@ -39,6 +42,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     lowering.transitions(spec);
     lowering.section(spec);
     lowering.measures(spec);
+    lowering.also_zero(spec);
     lowering.problems(spec);
     // What nothing needs is checked, but leaves no trace in the model.
     let lets = lowering.into_lets();

@@ -16,7 +16,7 @@ pub(crate) struct Value {
 
 /// A set of kinds of variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Uses(u8);
+pub(crate) struct Uses(u16);
 
 impl Uses {
     pub(crate) const NONE: Self = Self(0);
@@ -28,7 +28,8 @@ impl Uses {
     pub(crate) const FUNCTIONAL: Self = Self(32);
     pub(crate) const MEASURE: Self = Self(64);
     pub(crate) const RADIUS: Self = Self(128);
-    /// What changes along a run.
+    pub(crate) const RATE: Self = Self(256);
+    /// What the equations of motion are made of.
     pub(crate) const MOTION: Self = Self::STATE.and(Self::MEMORY).and(Self::TAU).and(Self::TIME);
     /// What is known only after a map.
     pub(crate) const RESULT: Self = Self::FUNCTIONAL.and(Self::MEASURE).and(Self::RADIUS);
@@ -58,13 +59,24 @@ pub(crate) enum Style {
     Immediate,
 }
 
+/// Whether the time derivatives of states are known at a transition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Rates {
+    /// They are the flow of the mode that the transition leaves.
+    Known,
+    /// That mode has a mass matrix, which may be singular there.
+    Unknown,
+}
+
 /// A place of a spec.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Place {
-    /// Flow, guard or reset.
-    Dynamics,
+    /// Flow or mass matrix.
+    Flow,
+    /// Guard or reset.
+    Event(Rates),
     /// The condition of a transition.
-    When,
+    When(Rates),
     /// Embedding or symmetry of the section.
     Section,
     /// A name of `[let]`, which may be used anywhere: checked at its use.
@@ -82,16 +94,19 @@ pub(crate) enum Place {
 impl Place {
     pub(crate) const fn style(self) -> Style {
         match self {
-            Self::Dynamics | Self::Functional => Style::Frozen,
+            Self::Flow | Self::Event(_) | Self::Functional => Style::Frozen,
             Self::Let(style) => style,
-            Self::When | Self::Section | Self::Measure | Self::Problem | Self::Constant => Style::Immediate,
+            Self::When(_) | Self::Section | Self::Measure | Self::Problem | Self::Constant => Style::Immediate,
         }
     }
 
     /// What has a value there.
     pub(crate) const fn available(self) -> Uses {
         match self {
-            Self::Dynamics | Self::When | Self::Let(_) | Self::Functional => Uses::PARAMETER.and(Uses::MOTION),
+            Self::Flow | Self::Event(Rates::Unknown) | Self::When(Rates::Unknown) => Uses::PARAMETER.and(Uses::MOTION),
+            Self::Event(Rates::Known) | Self::When(Rates::Known) | Self::Let(_) | Self::Functional => {
+                Uses::PARAMETER.and(Uses::MOTION).and(Uses::RATE)
+            }
             Self::Section => Uses::PARAMETER.and(Uses::STATE),
             Self::Measure => Uses::PARAMETER.and(Uses::FUNCTIONAL),
             Self::Problem => Uses::PARAMETER.and(Uses::MEASURE).and(Uses::RADIUS),

@@ -1,12 +1,15 @@
 //! The tables `[functions]`, `[modes]`, `[transitions]` and `[section]`.
 
-use super::fields::{Fields, Sink, equation, equations, scalar, string, strings, table};
-use super::{fields_of, unsupported};
+use super::fields::{
+    Fields, Sink, equation, equation_or_broken, equations, expression, scalar, string, strings, table,
+};
+use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::front::document::Entry;
+use crate::front::document::{Entry, ValueKind};
 use crate::front::names::suggest;
-use crate::front::spec::{Function, Mode, Named, Section, Transition};
+use crate::front::spec::{Equation, Function, MassRow, Mode, Named, Section, Transition};
 use crate::ir::Direction;
+use crate::source::Span;
 
 /// `f = { args = ["w"], expr = "..." }`.
 pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Function>> {
@@ -24,28 +27,36 @@ pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Fun
     functions
 }
 
-/// `[modes.NAME.flow]`.
+/// `[modes.NAME.flow]` and `[modes.NAME.mass]`.
 pub(super) fn modes(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Mode>> {
     let mut modes = Vec::new();
     for entry in entries {
         let Some(fields) = fields_of(entry, "mode", &["flow", "mass", "doc"], sink) else {
             continue;
         };
-        let help = "divide the flow by the factor, where it cannot vanish";
-        unsupported(&fields, "mass", "mass matrices are not supported yet", help, sink);
         let flow = fields.require("flow", &format!("[modes.{}.flow]", entry.key), sink);
         let flow = flow.and_then(|entry| table(entry, sink)).map(|table| equations(&table.entries, sink));
         fields.doc("doc", sink);
-        let value = Mode { flow: flow.unwrap_or_default() };
+        let mass = fields.table("mass", sink).iter().map(|entry| mass_row(entry, sink)).collect();
+        let value = Mode { flow: flow.unwrap_or_default(), mass };
         modes.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     modes
 }
 
+/// `x = "m"`, or `x = { x = "m", y = "m*l*cos(y)" }`.
+fn mass_row(entry: &Entry, sink: &mut Sink<'_>) -> Named<MassRow> {
+    let value = match &entry.value.kind {
+        ValueKind::Table(table) => MassRow::Entries(equations(&table.entries, sink)),
+        _ => MassRow::Factor(equation_or_broken(entry, sink)),
+    };
+    Named { name: entry.key.clone(), span: entry.key_span, value }
+}
+
 /// `[transitions.NAME]`.
 pub(super) fn transitions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Transition>> {
     let mut transitions = Vec::new();
-    let keys = ["from", "to", "guard", "direction", "when", "reset", "doc"];
+    let keys = ["from", "to", "guard", "direction", "when", "reset", "also_zero", "doc"];
     for entry in entries {
         let Some(fields) = fields_of(entry, "transition", &keys, sink) else {
             continue;
@@ -58,10 +69,17 @@ pub(super) fn transitions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<T
             direction: direction(&fields, sink),
             when: fields.get("when").and_then(|entry| equation(entry, sink)),
             reset: equations(fields.table("reset", sink), sink),
+            also_zero: also_zero(&fields, sink),
         };
         transitions.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     transitions
+}
+
+fn also_zero(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<(Span, Vec<Equation>)> {
+    let entry = fields.get("also_zero")?;
+    let texts = strings(entry, "also_zero = [\"length - reach\"]", sink)?;
+    Some((entry.key_span, texts.into_iter().map(|text| expression(text, sink)).collect()))
 }
 
 fn direction(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Direction> {

@@ -140,7 +140,18 @@ pub(super) fn scalar(value: &Value, key: &str, example: &str, sink: &mut Sink<'_
 /// An expression.
 pub(super) fn equation(entry: &Entry, sink: &mut Sink<'_>) -> Option<Equation> {
     let text = scalar(&entry.value, &entry.key, &format!("{} = \"...\"", shortened(&entry.key)), sink)?;
-    Some(kept(parse_expression(&text), text, sink))
+    Some(expression(text, sink))
+}
+
+/// The same; what has the wrong type is there all the same: it must not be reported as missing.
+pub(super) fn equation_or_broken(entry: &Entry, sink: &mut Sink<'_>) -> Equation {
+    let broken = || Equation { text: Text::bare("", entry.value.span), expression: None };
+    equation(entry, sink).unwrap_or_else(broken)
+}
+
+/// The expression of a text.
+pub(super) fn expression(text: Text, sink: &mut Sink<'_>) -> Equation {
+    kept(parse_expression(&text), text, sink)
 }
 
 /// A constraint.
@@ -163,9 +174,7 @@ fn kept(result: Result<Expression, Box<Diagnostic>>, text: Text, sink: &mut Sink
 pub(super) fn equations(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Equation>> {
     let mut equations = Vec::new();
     for entry in entries {
-        // An equation of the wrong type is there all the same: it must not be reported as missing.
-        let broken = || Equation { text: Text::bare("", entry.value.span), expression: None };
-        let value = equation(entry, sink).unwrap_or_else(broken);
+        let value = equation_or_broken(entry, sink);
         equations.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     equations
