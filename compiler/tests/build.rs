@@ -99,6 +99,23 @@ fn a_checkout_is_generated_once() {
     assert_ne!(krate.read("generated/fall.rs"), text);
 }
 
+/// Texts for people are no equations, but they are printed.
+#[test]
+fn printed_texts_are_kept_up_to_date() {
+    let spec = SPEC.replace("\"-g\"", "\"-g - abs(v)*1 [1/s]\"")
+        + "[transitions.bounce]\nfrom = \"flight\"\nto = \"flight\"\nguard = \"y\"\ndirection = \"falling\"\n\
+           also_zero = [\"2*y\"]\n[transitions.bounce.reset]\ny = \"0\"\nv = \"-v\"\n\
+           [section]\nafter = \"bounce\"\ncoordinates = [\"v\"]\n[section.embed]\ny = \"0\"\n[section.start]\nv = \"1 m/s\"\n";
+    let krate = Crate::new(true);
+    krate.write("specs/fall.toml", &spec);
+    krate.config().compile().unwrap();
+    for (text, other) in [("abs(v)", "abs( v )"), ("\"2*y\"", "\"2 * y\"")] {
+        krate.write("specs/fall.toml", &spec.replace(text, other));
+        assert_eq!(krate.config().compile().unwrap().derived, ["fall"], "{text}");
+        assert!(krate.read("generated/fall.rs").contains(other));
+    }
+}
+
 #[test]
 fn an_edited_file_is_noticed() {
     let krate = Crate::new(true);
