@@ -110,7 +110,7 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
     step: &StateStep<X, N>,
     watched: &[Watched],
     warnings: &mut Vec<Warning>,
-    work: &mut X::Workspace,
+    work: &mut X::Workspace<N>,
     statistics: &mut Statistics,
 ) -> Vec<Found> {
     let dense = X::dense::<M, N, P, Q>(frame, step, &mut statistics.evaluations);
@@ -157,7 +157,7 @@ fn exact<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     watched: &Watched,
     bracket: (f64, f64),
     (guess, from): (f64, Side),
-    work: &mut X::Workspace,
+    work: &mut X::Workspace<N>,
     statistics: &mut Statistics,
 ) -> (f64, Reading) {
     let mut last = watched.end;
@@ -178,7 +178,7 @@ fn enabled<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q
     step: &StateStep<X, N>,
     surface: Surface,
     h: f64,
-    work: &mut X::Workspace,
+    work: &mut X::Workspace<N>,
     statistics: &mut Statistics,
 ) -> bool {
     match surface {

@@ -75,7 +75,7 @@ where
         step: &StepOf<X, N, W, C>,
         observable: usize,
         h: f64,
-        work: &mut X::Workspace,
+        work: &mut X::Workspace<N>,
         evaluations: &mut usize,
     ) -> Varied<C> {
         let y = stand_at::<X, M, R, N, P, Q, W, C>(&segment.held(), step, h, work, evaluations);
@@ -152,7 +152,7 @@ impl Peak {
         step: &StateStep<X, N>,
         (start, end): ((f64, f64), (f64, f64)),
         better_than: f64,
-        work: &mut X::Workspace,
+        work: &mut X::Workspace<N>,
         evaluations: &mut usize,
     ) -> Option<f64> {
         let dense = X::dense::<M, N, P, Q>(frame, step, evaluations);

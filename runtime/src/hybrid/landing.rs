@@ -72,7 +72,7 @@ pub(crate) fn stand_at<X, M, R, const N: usize, const P: usize, const Q: usize, 
     held: &Held<'_, P, C>,
     step: &StepOf<X, N, W, C>,
     h: f64,
-    work: &mut X::Workspace,
+    work: &mut X::Workspace<N>,
     evaluations: &mut usize,
 ) -> StepOf<X, N, W, C>
 where

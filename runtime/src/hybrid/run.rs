@@ -46,7 +46,7 @@ pub(crate) struct Run<
     /// The step that was taken last; its start is where the run is.
     pub(crate) step: StepOf<X, N, W, C>,
     /// Room for the method.
-    pub(crate) work: X::Workspace,
+    pub(crate) work: X::Workspace<N>,
     /// Step size control.
     pub(crate) controller: Controller,
     /// Size of the next step; 0 before the first.
@@ -97,7 +97,7 @@ where
             accuracy,
             segment: Segment { mode: 0, start: 0.0, p, memory, branch, dp, dstart: [0.0; C], columns, tolerance },
             step,
-            work: X::Workspace::default(),
+            work: X::Workspace::<N>::default(),
             controller: X::controller(),
             h: 0.0,
             ceiling: f64::INFINITY,

@@ -21,7 +21,7 @@ impl Method for Explicit {
     const RATES_BY_POLYNOMIAL: bool = false;
     type Stages<const N: usize, const W: usize, const C: usize> = Stages<Bundle<N, W, C>>;
     type Dense<const N: usize> = Dense<N>;
-    type Workspace = ();
+    type Workspace<const N: usize> = ();
 
     fn controller() -> Controller {
         Controller::new(ERROR_ORDER)

@@ -57,7 +57,7 @@ pub(crate) trait Method: Copy + Debug + Send + Sync + 'static {
     /// Its continuous output.
     type Dense<const N: usize>: Copy + Debug;
     /// Room that is used again from step to step.
-    type Workspace: Default + Debug;
+    type Workspace<const N: usize>: Default + Debug;
 
     /// Its step size control.
     fn controller() -> Controller;
@@ -85,7 +85,7 @@ pub(crate) trait Method: Copy + Debug + Send + Sync + 'static {
         step: &mut StepOf<Self, N, W, C>,
         typical: Typical,
         tolerance: Tolerance,
-        work: &mut Self::Workspace,
+        work: &mut Self::Workspace<N>,
         evaluations: &mut usize,
     ) -> Option<f64>;
 
@@ -105,7 +105,7 @@ pub(crate) trait Method: Copy + Debug + Send + Sync + 'static {
         h: f64,
         purpose: Purpose,
         tolerance: Tolerance,
-        work: &mut Self::Workspace,
+        work: &mut Self::Workspace<N>,
         evaluations: &mut usize,
     ) -> f64;
 
@@ -196,7 +196,7 @@ pub(crate) fn restep<X: Method, M: Model<N, P, Q>, const N: usize, const P: usiz
     frame: Frame<'_, P>,
     step: &StateStep<X, N>,
     h: f64,
-    work: &mut X::Workspace,
+    work: &mut X::Workspace<N>,
     evaluations: &mut usize,
 ) -> ([f64; N], [f64; N]) {
     let mut shorter = *step;
@@ -216,5 +216,5 @@ pub(crate) fn short_step<X: Method, M: Model<N, P, Q>, const N: usize, const P: 
     let bundle = |x: &[f64; N]| Bundle::<N, 0, 0> { x: *x, q: [], dx: [], dq: [] };
     let (start, start_rates) = (bundle(x), bundle(k));
     let step = Step { tau, h, start, start_rates, stages: X::stages(), end: start, end_rates: start_rates };
-    restep::<X, M, N, P, Q>(frame, &step, h, &mut X::Workspace::default(), &mut 0).0
+    restep::<X, M, N, P, Q>(frame, &step, h, &mut X::Workspace::<N>::default(), &mut 0).0
 }

@@ -15,7 +15,7 @@ const NEWTON: f64 = 0.03;
 /// Changes of so many units in the last place cannot be told from rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Factor of the tolerance for the error estimate.
-const FACTOR: f64 = 1.0;
+const FACTOR: f64 = 5.0;
 /// The same where functionals may take rates.
 const FACTOR_WITH_RATES: f64 = 0.1;
 /// How far the polynomial of the step before predicts, in its own lengths.
@@ -87,7 +87,7 @@ where
     const RATES_BY_POLYNOMIAL: bool = true;
     type Stages<const N: usize, const W: usize, const C: usize> = Stages<N, W, C, S>;
     type Dense<const N: usize> = Polynomial<N, S>;
-    type Workspace = Workspace;
+    type Workspace<const N: usize> = Workspace<N, S>;
 
     fn controller() -> Controller {
         Controller::predictive((S + 1) as f64)
@@ -115,7 +115,7 @@ where
         step: &mut StepOf<Self, N, W, C>,
         typical: Typical,
         tolerance: Tolerance,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
         evaluations: &mut usize,
     ) -> Option<f64> {
         let mut h = match typical {
@@ -158,7 +158,7 @@ where
         h: f64,
         purpose: Purpose,
         tolerance: Tolerance,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
         evaluations: &mut usize,
     ) -> f64 {
         step.h = h;
@@ -271,7 +271,7 @@ where
         equation: &Equation<'_, M, P, Q>,
         step: &mut StepOf<Self, N, W, C>,
         tolerance: Tolerance,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
         evaluations: &mut usize,
     ) -> Option<Linearised<f64, N>> {
         let (t, x, place) = (&Self::TABLEAU, step.start.x, (step.tau, step.h));
@@ -297,7 +297,7 @@ where
         step: &StepOf<Self, N, W, C>,
         last: &Linearised<f64, N>,
         estimate: Tolerance,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
     ) -> f64 {
         let t = &Self::TABLEAU;
         if !work.factorise_filter(step.h * t.gamma, last) {
@@ -308,7 +308,7 @@ where
         let start = state(step.start.x);
         let end = start.advance(step.h, t.a[S - 1], k.each_ref());
         let d = t.defect(step.h, &state(step.start_rates.x), &k);
-        size(&start, &end, &state(work.filtered(last, &d.x)), estimate)
+        size(&start, &end, &state(work.filtered(step.h * t.gamma, last, &d.x)), estimate)
     }
 
     /// The error of everything; after [`Self::state_error`].
@@ -317,12 +317,13 @@ where
         step: &StepOf<Self, N, W, C>,
         last: &Linearised<f64, N>,
         estimate: Tolerance,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
     ) -> f64 {
         let mut e = Self::TABLEAU.defect(step.h, &step.start_rates, &step.stages.k);
-        e.x = work.filtered(last, &e.x);
+        let h_gamma = step.h * Self::TABLEAU.gamma;
+        e.x = work.filtered(h_gamma, last, &e.x);
         for column in e.dx.iter_mut().take(columns) {
-            *column = work.filtered(last, column);
+            *column = work.filtered(h_gamma, last, column);
         }
         size(&step.start, &step.end, &e, estimate)
     }
@@ -341,7 +342,7 @@ where
         held: &Held<'_, P, C>,
         equation: &Equation<'_, M, P, Q>,
         step: &mut StepOf<Self, N, W, C>,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
         evaluations: &mut usize,
     ) -> bool {
         if W == 0 && held.columns == 0 {

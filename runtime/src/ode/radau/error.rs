@@ -12,7 +12,7 @@
 //! has to be small.
 
 use super::coefficients::Tableau;
-use super::stages::Workspace;
+use super::stages::{Workspace, row_scale};
 use crate::model::Linearised;
 use crate::ode::{Bundle, OdeState, Tolerance};
 
@@ -36,28 +36,30 @@ impl<const S: usize> Tableau<S> {
     }
 }
 
-impl Workspace {
+impl<const N: usize, const S: usize> Workspace<N, S> {
     /// Factorises F_k + h gamma F_x, the matrix that turns a defect into an error.
-    pub fn factorise_filter<const N: usize>(&mut self, h_gamma: f64, at: &Linearised<f64, N>) -> bool {
-        self.filter.resize(N);
-        for (a, row) in self.filter.entries_mut().chunks_exact_mut(N.max(1)).enumerate() {
+    pub fn factorise_filter(&mut self, h_gamma: f64, at: &Linearised<f64, N>) -> bool {
+        for (a, [row]) in self.filter.rows_mut().iter_mut().enumerate() {
+            let scale = row_scale(at, h_gamma, a);
             for b in 0..N {
-                row[b] = at.dk[b][a] + h_gamma * at.dx[b][a];
+                row[b] = scale * (at.dk[b][a] + h_gamma * at.dx[b][a]);
             }
         }
         self.filter.factorise()
     }
 
-    /// (F_k + h gamma F_x)^-1 F_k d.
-    pub fn filtered<const N: usize>(&mut self, at: &Linearised<f64, N>, d: &[f64; N]) -> [f64; N] {
-        let mut e = [0.0; N];
-        for (column, v) in at.dk.iter().zip(d) {
-            for a in 0..N {
-                e[a] += column[a] * v;
+    /// (F_k + h gamma F_x)^-1 F_k d, with `h_gamma` as in [`Self::factorise_filter`].
+    pub fn filtered(&mut self, h_gamma: f64, at: &Linearised<f64, N>, d: &[f64; N]) -> [f64; N] {
+        let mut e = [[0.0; N]];
+        for a in 0..N {
+            let mut sum = 0.0;
+            for b in 0..N {
+                sum += at.dk[b][a] * d[b];
             }
+            e[0][a] = row_scale(at, h_gamma, a) * sum;
         }
         self.filter.solve(&mut e);
-        e
+        e[0]
     }
 }
 

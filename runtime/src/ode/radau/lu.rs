@@ -1,126 +1,147 @@
-//! Dense factorisation with partial pivoting, row by row, in place.
+//! Dense factorisation with partial pivoting of a matrix of S x S blocks of N x N, all sizes known when compiled.
 //!
-//! Rows are scaled to a largest entry of 1 first: the equations of a model have different units.
+//! Rows lie in memory one after the other and are worked on a block at a time. A finished row of U has zeros up to and with
+//! its diagonal (whose inverse is kept apart), so that whole blocks can be added without looking where the diagonal is; rows of
+//! L are copied out before that.
 
-/// A factorised matrix of n rows.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Factors {
-    rows: usize,
-    entries: Vec<f64>,
-    scales: Vec<f64>,
+/// Entries of a row that is worked on as a whole.
+const SHORT_ROW: usize = 40;
+
+/// A row: S blocks of N entries.
+type Row<const N: usize, const S: usize> = [[f64; N]; S];
+
+/// A factorised matrix; also its room.
+#[derive(Clone, Debug)]
+pub(super) struct Factors<const N: usize, const S: usize> {
+    /// The matrix, then U.
+    rows: Vec<Row<N, S>>,
+    /// L below its unit diagonal, zeros elsewhere.
+    lower: Vec<Row<N, S>>,
+    inverses: Vec<f64>,
     order: Vec<usize>,
-    scratch: Vec<f64>,
+    scratch: Row<N, S>,
 }
 
-impl Factors {
-    /// Room for a matrix of `rows` rows; also says how many it has.
-    pub(super) fn resize(&mut self, rows: usize) {
-        if self.rows != rows {
-            self.rows = rows;
-            self.entries = vec![0.0; rows * rows];
-            self.scales = vec![0.0; rows];
-            self.order = vec![0; rows];
-            self.scratch = vec![0.0; rows];
-        }
+impl<const N: usize, const S: usize> Default for Factors<N, S> {
+    fn default() -> Self {
+        let n = N * S;
+        let zero = [[0.0; N]; S];
+        let (rows, lower) = (vec![zero; n], vec![zero; n]);
+        Self { rows, lower, inverses: vec![0.0; n], order: (0..n).collect(), scratch: zero }
     }
+}
 
-    /// The entries, row-major, to be filled in before [`Self::factorise`].
-    pub(super) fn entries_mut(&mut self) -> &mut [f64] {
-        &mut self.entries
+impl<const N: usize, const S: usize> Factors<N, S> {
+    /// The rows, to be filled in before [`Self::factorise`]; their largest entries should be of similar size.
+    pub(super) fn rows_mut(&mut self) -> &mut [Row<N, S>] {
+        &mut self.rows
     }
 
     /// Replaces the entries by their factors; false when the matrix is singular or not finite.
     #[inline]
     pub(super) fn factorise(&mut self) -> bool {
-        self.equilibrate() && self.eliminate()
-    }
-
-    fn equilibrate(&mut self) -> bool {
-        let n = self.rows;
-        for (row, scale) in self.entries.chunks_exact_mut(n.max(1)).zip(&mut self.scales) {
-            let mut largest = 0.0_f64;
-            for entry in row.iter() {
-                largest = largest.max(entry.abs());
-            }
-            // NaN and infinite entries fail at the pivots.
-            *scale = 1.0 / largest;
-            if largest == 0.0 {
-                return false;
-            }
-            for entry in row {
-                *entry *= *scale;
-            }
-        }
-        true
-    }
-
-    fn eliminate(&mut self) -> bool {
-        let n = self.rows;
         for (i, slot) in self.order.iter_mut().enumerate() {
             *slot = i;
         }
-        for j in 0..n {
-            let mut pivot = j;
-            for i in j + 1..n {
-                if self.entries[i * n + j].abs() > self.entries[pivot * n + j].abs() {
-                    pivot = i;
+        for block in 0..S {
+            for column in 0..N {
+                if !self.eliminate(block, column) {
+                    return false;
                 }
             }
-            let value = self.entries[pivot * n + j];
-            if value == 0.0 || !value.is_finite() {
-                return false;
-            }
-            if pivot != j {
-                let (upper, lower) = self.entries.split_at_mut(pivot * n);
-                upper[j * n..j * n + n].swap_with_slice(&mut lower[..n]);
-                self.order.swap(j, pivot);
-            }
-            self.reduce(j, 1.0 / value);
         }
         true
     }
 
-    /// Subtracts multiples of row j from the rows below it.
-    #[inline]
-    fn reduce(&mut self, j: usize, inverse: f64) {
-        let n = self.rows;
-        let (upper, lower) = self.entries.split_at_mut((j + 1) * n);
-        let pivot = &upper[j * n + j + 1..j * n + n];
-        for row in lower.chunks_exact_mut(n) {
-            let factor = row[j] * inverse;
-            row[j] = factor;
-            // Blocks of zeros are common.
-            if factor != 0.0 {
-                for (entry, above) in row[j + 1..].iter_mut().zip(pivot) {
-                    *entry -= factor * above;
-                }
+    /// Makes zeros below the diagonal in one column.
+    #[inline(always)]
+    fn eliminate(&mut self, block: usize, column: usize) -> bool {
+        let j = block * N + column;
+        let Some(rest) = self.rows.get_mut(j..) else {
+            return false;
+        };
+        let (mut pivot, mut largest, mut value) = (0, -1.0, 0.0);
+        for (i, row) in rest.iter().enumerate() {
+            let entry: f64 = row[block][column];
+            if entry.abs() > largest {
+                (pivot, largest, value) = (i, entry.abs(), entry);
             }
         }
+        // A column of NaN finds no pivot and leaves 0 there; one NaN among numbers spreads to the next columns.
+        if value == 0.0 || !value.is_finite() {
+            return false;
+        }
+        rest.swap(0, pivot);
+        self.order.swap(j, j + pivot);
+        let inverse = 1.0 / value;
+        self.inverses[j] = inverse;
+        let Some((finished, below)) = rest.split_first_mut() else {
+            return false;
+        };
+        let lower = self.lower[j].as_flattened_mut();
+        lower[..j].copy_from_slice(&finished.as_flattened()[..j]);
+        finished.as_flattened_mut()[..=j].fill(0.0);
+        let finished = *finished;
+        for row in below {
+            let factor = row[block][column] * inverse;
+            // Blocks of zeros are common.
+            if factor != 0.0 {
+                // A short row is done with whole, zeros included: its length is known when compiled.
+                if const { N * S <= SHORT_ROW } {
+                    subtract(factor, &finished, row);
+                } else {
+                    subtract(factor, &finished[block..], &mut row[block..]);
+                }
+            }
+            row[block][column] = factor;
+        }
+        true
     }
 
     /// Solves in place; after a successful [`Self::factorise`].
     #[inline]
-    pub(super) fn solve(&mut self, b: &mut [f64]) {
-        let n = self.rows;
-        for (slot, &i) in self.scratch.iter_mut().zip(&self.order) {
-            *slot = b[i] * self.scales[i];
+    pub(super) fn solve(&mut self, b: &mut Row<N, S>) {
+        let n = N * S;
+        let x = &mut self.scratch;
+        for (slot, &i) in x.as_flattened_mut().iter_mut().zip(&self.order) {
+            *slot = b[i / N][i % N];
         }
         for i in 1..n {
-            let (known, rest) = self.scratch.split_at_mut(i);
-            rest[0] -= product(&self.entries[i * n..i * n + i], known);
+            // L is zero from the diagonal on.
+            let blocks = i.div_ceil(N);
+            let sum = product(&self.lower[i][..blocks], &x[..blocks]);
+            x[i / N][i % N] -= sum;
         }
         for i in (0..n).rev() {
-            let (rest, known) = self.scratch.split_at_mut(i + 1);
-            let sum = rest[i] - product(&self.entries[i * n + i + 1..(i + 1) * n], known);
-            rest[i] = sum / self.entries[i * n + i];
+            // U is zero up to the diagonal.
+            let from = i / N;
+            let sum = product(&self.rows[i][from..], &x[from..]);
+            x[i / N][i % N] = (x[i / N][i % N] - sum) * self.inverses[i];
         }
-        b.copy_from_slice(&self.scratch);
+        *b = *x;
     }
 }
 
+/// row -= factor * other.
+#[inline(always)]
+fn subtract<const N: usize>(factor: f64, other: &[[f64; N]], row: &mut [[f64; N]]) {
+    for (group, other) in row.iter_mut().zip(other) {
+        for i in 0..N {
+            group[i] -= factor * other[i];
+        }
+    }
+}
+
+/// Scalar product, group by group.
 #[inline]
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+fn product<const N: usize>(a: &[[f64; N]], b: &[[f64; N]]) -> f64 {
+    let mut sums = [0.0; N];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..N {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    sums.iter().sum()
 }
 
 #[cfg(test)]
@@ -128,26 +149,46 @@ mod tests {
     use super::Factors;
     use nalgebra::{DMatrix, DVector};
 
-    #[test]
-    fn solves_what_nalgebra_solves_and_refuses_singular_matrices() {
-        let n = 7;
-        let matrix = DMatrix::from_fn(n, n, |i, j| ((3 * i + 5 * j + i * j) as f64).sin() * 10f64.powi(i as i32 - 3));
-        let b = DVector::from_fn(n, |i, _| 10f64.powi(i as i32 - 3) * (i as f64).cos());
-        let mut factors = Factors::default();
-        factors.resize(n);
-        factors.entries_mut().copy_from_slice(matrix.transpose().as_slice());
+    fn solves<const N: usize, const S: usize>() {
+        let n = N * S;
+        let entry = |i: usize, j: usize| {
+            if (i + j) % 3 == 1 { 0.0 } else { ((3 * i + 5 * j + i * j + 1) as f64).sin() }
+        };
+        let matrix = DMatrix::from_fn(n, n, entry);
+        let b = DVector::from_fn(n, |i, _| (i as f64).cos());
+        let mut factors = Factors::<N, S>::default();
+        for (i, row) in factors.rows_mut().iter_mut().enumerate() {
+            for (j, slot) in row.as_flattened_mut().iter_mut().enumerate() {
+                *slot = entry(i, j);
+            }
+        }
         assert!(factors.factorise());
-        let mut x = b.as_slice().to_vec();
+        let mut x = [[0.0; N]; S];
+        x.as_flattened_mut().copy_from_slice(b.as_slice());
         factors.solve(&mut x);
         let exact = matrix.lu().solve(&b);
-        for (a, b) in x.iter().zip(exact.iter().flatten()) {
+        for (a, b) in x.as_flattened().iter().zip(exact.iter().flatten()) {
             approx::assert_relative_eq!(*a, *b, max_relative = 1e-11);
         }
-        factors.entries_mut().fill(1.0);
-        assert!(!factors.factorise());
-        factors.entries_mut().fill(f64::NAN);
-        assert!(!factors.factorise());
-        factors.entries_mut().fill(0.0);
-        assert!(!factors.factorise());
+    }
+
+    #[test]
+    fn solves_what_nalgebra_solves() {
+        solves::<1, 1>();
+        solves::<3, 1>();
+        solves::<2, 3>();
+        solves::<1, 5>();
+        solves::<3, 5>();
+        solves::<4, 5>();
+        solves::<7, 3>();
+    }
+
+    #[test]
+    fn refuses_singular_matrices() {
+        for entry in [0.0, 1.0, f64::NAN, f64::INFINITY] {
+            let mut factors = Factors::<2, 3>::default();
+            factors.rows_mut().fill([[entry; 2]; 3]);
+            assert!(!factors.factorise(), "{entry}");
+        }
     }
 }

@@ -11,8 +11,8 @@ use crate::model::Linearised;
 
 /// Most iterations of one step.
 const ITERATIONS: usize = 14;
-/// An iteration that contracts less than this gets a new matrix.
-const GOOD_CONTRACTION: f64 = 0.05;
+/// A matrix is kept where it will take so many more iterations at most: a new one costs about as much.
+const PATIENCE: f64 = 5.0;
 
 /// An equation F(tau, x, k) = 0 for the rate k of the state x.
 pub trait Implicit<const N: usize> {
@@ -25,52 +25,63 @@ pub trait Implicit<const N: usize> {
 /// Rates of the stages.
 pub type Rates<const N: usize, const S: usize> = [[f64; N]; S];
 
-/// Matrices and vectors that are used again from step to step.
-#[derive(Clone, Debug, Default)]
-pub struct Workspace {
+/// Matrices that are used again from step to step.
+#[derive(Clone, Debug)]
+pub struct Workspace<const N: usize, const S: usize> {
     /// The matrix of all stages.
-    pub(super) stages: Factors,
+    pub(super) stages: Factors<N, S>,
     /// The matrix of the error estimate.
-    pub(super) filter: Factors,
-    /// Right-hand side and solution.
-    pub(super) vector: Vec<f64>,
+    pub(super) filter: Factors<N, 1>,
+    /// What the rows of the matrix of all stages were divided by.
+    pub(super) scales: Rates<N, S>,
 }
 
-impl Workspace {
-    /// Makes room for N states and S stages.
-    pub(super) fn fit<const N: usize, const S: usize>(&mut self) {
-        self.stages.resize(N * S);
-        self.filter.resize(N);
-        self.vector.resize(N * S, 0.0);
+impl<const N: usize, const S: usize> Default for Workspace<N, S> {
+    fn default() -> Self {
+        Self { stages: Factors::default(), filter: Factors::default(), scales: [[1.0; N]; S] }
     }
+}
 
-    /// Fills in and factorises the matrix of all stages.
-    pub(super) fn factorise<const N: usize, const S: usize>(
-        &mut self,
-        tableau: &Tableau<S>,
-        h: f64,
-        linearised: &[Linearised<f64, N>; S],
-    ) -> bool {
-        let n = N * S;
-        let entries = self.stages.entries_mut();
+impl<const N: usize, const S: usize> Workspace<N, S> {
+    /// Fills in and factorises the matrix of all stages; each row is scaled, as equations have different units.
+    pub(super) fn factorise(&mut self, tableau: &Tableau<S>, h: f64, linearised: &[Linearised<f64, N>; S]) -> bool {
+        let rows = self.stages.rows_mut();
         for (i, at) in linearised.iter().enumerate() {
             for a in 0..N {
-                let row = &mut entries[(i * N + a) * n..(i * N + a + 1) * n];
-                for (j, block) in row.chunks_exact_mut(N).enumerate() {
-                    let weight = h * tableau.a[i][j];
-                    for b in 0..N {
-                        block[b] = weight * at.dx[b][a];
-                    }
-                    if i == j {
-                        for b in 0..N {
-                            block[b] += at.dk[b][a];
-                        }
-                    }
+                let scale = row_scale(at, h, a);
+                self.scales[i][a] = scale;
+                let row = &mut rows[i * N + a];
+                let by_state: [f64; N] = core::array::from_fn(|b| scale * h * at.dx[b][a]);
+                for (block, weight) in row.iter_mut().zip(&tableau.a[i]) {
+                    *block = by_state.map(|v| weight * v);
+                }
+                for b in 0..N {
+                    row[i][b] += scale * at.dk[b][a];
                 }
             }
         }
         self.stages.factorise()
     }
+
+    /// Solves for the rates of all stages; the right-hand side is not scaled.
+    pub(super) fn solve(&mut self, b: &mut Rates<N, S>) {
+        for (b, scales) in b.iter_mut().zip(&self.scales) {
+            for a in 0..N {
+                b[a] *= scales[a];
+            }
+        }
+        self.stages.solve(b);
+    }
+}
+
+/// The inverse of the largest derivative of equation a; 1 where all vanish, which is found when factorising.
+#[inline]
+pub(super) fn row_scale<const N: usize>(at: &Linearised<f64, N>, h: f64, a: usize) -> f64 {
+    let mut largest = 0.0_f64;
+    for b in 0..N {
+        largest = largest.max(at.dk[b][a].abs()).max((h * at.dx[b][a]).abs());
+    }
+    if largest > 0.0 { 1.0 / largest } else { 1.0 }
 }
 
 /// State at stage i.
@@ -96,12 +107,12 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
     x: &[f64; N],
     k: &mut Rates<N, S>,
     scale: &[f64; N],
-    work: &mut Workspace,
+    work: &mut Workspace<N, S>,
 ) -> Option<(Linearised<f64, N>, usize)> {
-    work.fit::<N, S>();
     let mut last: Option<Linearised<f64, N>> = None;
     let (mut before, mut stale) = (f64::INFINITY, true);
     for iteration in 1..=ITERATIONS {
+        let mut step = [[0.0; N]; S];
         if stale {
             let linearised = core::array::from_fn(|i| {
                 equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
@@ -109,22 +120,17 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
             if !work.factorise(tableau, h, &linearised) {
                 return None;
             }
-            for (i, at) in linearised.iter().enumerate() {
-                work.vector[i * N..(i + 1) * N].copy_from_slice(&at.value);
-            }
+            step = core::array::from_fn(|i| linearised[i].value);
             last = Some(linearised[S - 1]);
         } else {
             for i in 0..S {
-                let value = equation.residual(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
-                work.vector[i * N..(i + 1) * N].copy_from_slice(&value);
+                step[i] = equation.residual(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
             }
         }
-        work.stages.solve(&mut work.vector);
-        let mut step = [[0.0; N]; S];
-        for (i, d) in step.iter_mut().enumerate() {
-            d.copy_from_slice(&work.vector[i * N..(i + 1) * N]);
+        work.solve(&mut step);
+        for (k, step) in k.iter_mut().zip(&step) {
             for a in 0..N {
-                k[i][a] -= d[a];
+                k[a] -= step[a];
             }
         }
         let size = largest(tableau, h, &step, scale);
@@ -137,10 +143,16 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
         if iteration > 2 && size > 2.0 * before {
             return None;
         }
-        stale = size > GOOD_CONTRACTION * before;
+        stale = iteration > 1 && to_go(size, before) > PATIENCE;
         before = size;
     }
     None
+}
+
+/// How many more iterations it takes if they shrink as the last one did.
+fn to_go(size: f64, before: f64) -> f64 {
+    let contraction = size / before;
+    if contraction < 1.0 { size.max(1.0).ln() / -contraction.ln() } else { f64::INFINITY }
 }
 
 /// Whether what is left after a step of this size does not matter, judged by how fast the steps shrink.

@@ -22,9 +22,8 @@ impl<const N: usize, const S: usize> Differentiated<N, S> {
         (tau, h): (f64, f64),
         x: &[f64; N],
         k: &Rates<N, S>,
-        work: &mut Workspace,
+        work: &mut Workspace<N, S>,
     ) -> Option<Self> {
-        work.fit::<N, S>();
         let linearised = core::array::from_fn(|i| {
             equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
         });
@@ -33,21 +32,18 @@ impl<const N: usize, const S: usize> Differentiated<N, S> {
 
     /// Variations of the rates of all stages for the variation `dx` of the state at the start; `forced[i]` is what other
     /// variations (of parameters, of time) add to the variation of F at stage i.
-    pub fn column(&self, dx: &[f64; N], forced: &Rates<N, S>, work: &mut Workspace) -> Rates<N, S> {
+    pub fn column(&self, dx: &[f64; N], forced: &Rates<N, S>, work: &mut Workspace<N, S>) -> Rates<N, S> {
+        let mut dk = [[0.0; N]; S];
         for (i, at) in self.linearised.iter().enumerate() {
             for a in 0..N {
                 let mut sum = forced[i][a];
                 for b in 0..N {
                     sum += at.dx[b][a] * dx[b];
                 }
-                work.vector[i * N + a] = -sum;
+                dk[i][a] = -sum;
             }
         }
-        work.stages.solve(&mut work.vector);
-        let mut dk = [[0.0; N]; S];
-        for (i, column) in dk.iter_mut().enumerate() {
-            column.copy_from_slice(&work.vector[i * N..(i + 1) * N]);
-        }
+        work.solve(&mut dk);
         dk
     }
 }
