@@ -3,6 +3,7 @@
 use super::gait::Method;
 use super::machine::Machine;
 use super::step::{Element, Step};
+use std::f64::consts::PI;
 
 /// Measures of one step, SI units.
 #[derive(Clone, Copy, Debug)]
@@ -30,25 +31,26 @@ impl Method {
     /// Measures of a step of the machine.
     pub fn measures(&self, machine: &Machine, step: &Step) -> Measures {
         let duration = step.duration;
-        let point = |phi: f64, u: [f64; 3]| {
-            let r = machine.leg(phi)[0];
-            [r * u[1].sin(), -r * u[1].cos()]
-        };
-        let first = point(0.0, step.elements[0].values[0]);
-        let last = point(std::f64::consts::PI, step.end());
         let sideways = |phi: f64, u: [f64; 3]| machine.leg(phi)[1] * u[0] * u[1].sin() + u[2] * u[1].cos();
         let power = |_: f64, u: [f64; 3]| machine.torque(u[0]) * u[0];
         let net: f64 = self.integral(step, power);
         let positive = self.positive_integral(step, power);
+        let across: f64 = self.integral(step, sideways);
         Measures {
-            climb_speed: (last[1] - first[1]) / duration,
-            lateral_speed: (2.0 * self.positive_integral(step, sideways) - (last[0] - first[0])) / duration,
+            climb_speed: self.climb_speed(machine, step),
+            lateral_speed: (2.0 * self.positive_integral(step, sideways) - across) / duration,
             peak_pull: self.maximum(step, |phi, u, slope| machine.actuation(phi, u, slope * u[0])),
             peak_push: self.maximum(step, |phi, u, slope| -machine.actuation(phi, u, slope * u[0])),
             peak_motor_speed: machine.gear * self.maximum(step, |_, u, _| u[0]),
             mean_power: positive / duration,
             regenerated_power: (positive - net) / duration,
         }
+    }
+
+    /// Mean upward speed: the height -r cos(q_theta) gained, over the duration.
+    pub fn climb_speed(&self, machine: &Machine, step: &Step) -> f64 {
+        let height = |phi: f64, u: [f64; 3]| -machine.leg(phi)[0] * u[1].cos();
+        (height(PI, step.end()) - height(0.0, step.elements[0].values[0])) / step.duration
     }
 
     /// Time integral of a function of phi and u.
@@ -96,7 +98,7 @@ impl Method {
             let values: Vec<f64> = points.iter().map(|phi| value(*phi)).collect();
             let top = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
             let (left, right) = (points[top.saturating_sub(1)], points[(top + 1).min(SAMPLES)]);
-            best = best.max(values[top]).max(value(golden(&value, left, right)));
+            best = best.max(values[top]).max(value(golden(&value, left, right, 60)));
         }
         best
     }
@@ -117,12 +119,12 @@ fn bisect(f: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     0.5 * (a + b)
 }
 
-/// Where a function with one maximum between two points has it.
-pub fn golden(f: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+/// Where a function with one maximum between two points has it; each iteration shortens the bracket to 0.618 of its length.
+pub fn golden(f: &impl Fn(f64) -> f64, mut a: f64, mut b: f64, iterations: usize) -> f64 {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut c, mut d) = (b - ratio * (b - a), a + ratio * (b - a));
     let (mut at_c, mut at_d) = (f(c), f(d));
-    for _ in 0..60 {
+    for _ in 0..iterations {
         if at_c > at_d {
             (b, d, at_d) = (d, c, at_c);
             c = b - ratio * (b - a);
