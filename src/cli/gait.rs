@@ -1,16 +1,28 @@
 //! `gaitc gait MODEL`: a periodic gait, its stability and its measures.
 
 use super::args::{Cli, GaitArgs};
+use super::guards::Guards;
 use super::{InputError, Outcome, inputs, output};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{StopReason, Warning};
+use gaitc_runtime::return_map::{Method, StopReason, Warning};
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
-const GAIT_KEYS: [&str; 9] =
-    ["section", "state", "duration", "jacobian", "multipliers", "spectral_radius", "stable", "measures", "events"];
+const GAIT_KEYS: [&str; 11] = [
+    "section",
+    "state",
+    "duration",
+    "jacobian",
+    "multipliers",
+    "spectral_radius",
+    "stable",
+    "measures",
+    "events",
+    "also_zero",
+    "method",
+];
 
 /// Longer periods are not gaits that anybody could tell from chaos.
 const LONGEST_PERIOD: usize = 1000;
@@ -96,13 +108,7 @@ impl Report<'_> {
     fn gait_json(&self, gait: &Gait) -> Map<String, Value> {
         let (spec, map) = (&self.loaded.spec, &gait.map);
         let states = spec.states.iter().map(|s| s.name.as_str());
-        let event = |e: &gaitc_runtime::return_map::Event| {
-            json!({
-                "transition": self.transition(e.transition),
-                "time": e.time,
-                "transversality": e.transversality,
-            })
-        };
+        let guards = Guards { spec, map };
         let rows: Vec<Vec<f64>> = map.jacobian.row_iter().map(|row| row.iter().copied().collect()).collect();
         let mut all = Map::new();
         let measures = spec.measures.iter().map(|m| m.name.as_str());
@@ -115,7 +121,9 @@ impl Report<'_> {
             ("spectral_radius", json!(gait.spectral_radius)),
             ("stable", json!(gait.spectral_radius < 1.0)),
             ("measures", named(measures, map.measures.as_slice())),
-            ("events", map.events.iter().map(event).collect()),
+            ("events", guards.events_json()),
+            ("also_zero", guards.also_zero_json()),
+            ("method", json!(inputs::method_name(map.method))),
         ] {
             all.insert(key.to_owned(), value);
         }
@@ -173,7 +181,8 @@ impl Report<'_> {
         let measures = spec.measures.iter().zip(gait.map.measures.iter());
         rows.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
         text += &format!("\n{}", output::table(&["gait", "value"], rows));
-        text + &stability(gait)
+        text += &format!("\n{}", Guards { spec, map: &gait.map }.table());
+        text + &stability(gait) + &integration(gait.map.method)
     }
 }
 
@@ -188,6 +197,16 @@ fn stability(gait: &Gait) -> String {
     };
     let table = output::table(&["multiplier", "magnitude"], gait.multipliers.iter().map(row));
     format!("\n{table}\n{verdict}: spectral radius {:.6}\n", gait.spectral_radius)
+}
+
+/// How it was integrated, unless by the explicit method, which is the rule.
+fn integration(method: Method) -> String {
+    let stages = match method {
+        Method::Radau5 => 5,
+        Method::Radau3 => 3,
+        Method::Automatic | Method::Explicit => return String::new(),
+    };
+    format!("integrated with {} (implicit, Radau IIA with {stages} stages)\n", inputs::method_name(method))
 }
 
 fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
