@@ -36,7 +36,10 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let guess = inputs::guess(&loaded, &args.search)?;
     let memory = loaded.memory();
     let accuracy = inputs::accuracy(&args.search)?;
-    let request = GaitRequest { period: args.period, accuracy, ..GaitRequest::new(&parameters, &memory) };
+    let request = GaitRequest::new(&parameters, &memory);
+    // A map that is integrated more coarsely is no smoother than its tolerance: nor can its fixed point be.
+    let tolerance = request.tolerance.max(10.0 * accuracy.relative);
+    let request = GaitRequest { period: args.period, accuracy, tolerance, ..request };
     let outcome = find_gait(loaded.compiled, &request, &guess)?;
     let warnings = inputs::outside_range(&loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };

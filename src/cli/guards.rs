@@ -115,15 +115,15 @@ impl Guards<'_> {
         let flattest = fired.iter().min_by(|a, b| steepness(a).total_cmp(&steepness(b)))?;
         let dimension = self.transition(index).map_or(Dimension::NONE, |t| t.guard_dimension);
         let mut says = format!(
-            "crosses zero at {} with {}",
+            "crosses zero at {}, transversality {}",
             format_quantity(flattest.time, "s"),
             rate(flattest.transversality, dimension)
         );
         if steepness(flattest).is_finite() {
-            says += &format!(", {}% of its fastest", format_number(100.0 * steepness(flattest)));
+            says += &format!(" ({} of its fastest rate)", percent(steepness(flattest)));
         }
         if fired.len() > 1 {
-            says += &format!(" (the flattest of {} crossings)", fired.len());
+            says += &format!("; the flattest of {} crossings", fired.len());
         }
         Some(vec![self.name(index).to_owned(), self.text_of(index).to_owned(), says])
     }
@@ -134,9 +134,9 @@ impl Guards<'_> {
         let says = match Passage::of(at, self.map.duration) {
             Passage::NotZero => format!("is not zero there, but {}", format_si(at.end, dimension)),
             Passage::Touches => {
-                format!("only touches zero (with {}): it could not serve as guard", rate(at.rate, dimension))
+                format!("only touches zero (rate {}): it could not serve as guard", rate(at.rate, dimension))
             }
-            Passage::Crosses => format!("crosses zero too, with {}", rate(at.rate, dimension)),
+            Passage::Crosses => format!("crosses zero too (rate {})", rate(at.rate, dimension)),
         };
         vec!["  also zero".to_owned(), text.to_owned(), says]
     }
@@ -145,6 +145,12 @@ impl Guards<'_> {
 /// The rate at a crossing as a fraction of the largest one since the transition before; not finite where none is known.
 fn steepness(event: &Event) -> f64 {
     event.transversality.abs() / event.fastest.max(event.transversality.abs())
+}
+
+/// A fraction in percent: whole ones, and two digits of what is less.
+fn percent(fraction: f64) -> String {
+    let percent = 100.0 * fraction;
+    if percent >= 1.0 { format!("{percent:.0}%") } else { format!("{percent:.1e}%") }
 }
 
 /// A rate of a function of this dimension, in SI units.

@@ -80,7 +80,9 @@ pub(super) fn accuracy(args: &SearchArgs) -> Result<Accuracy, InputError> {
 /// The integration method of a name.
 fn method(name: &str) -> Result<Method, InputError> {
     let known = METHODS.iter().find(|(known, _)| *known == name);
-    known.map(|(_, method)| *method).ok_or_else(|| unknown("--method", "method", name, &METHODS.map(|(known, _)| known)))
+    known
+        .map(|(_, method)| *method)
+        .ok_or_else(|| unknown("--method", "method", name, &METHODS.map(|(known, _)| known)))
 }
 
 /// The name of an integration method.

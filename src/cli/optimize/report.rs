@@ -162,7 +162,8 @@ impl Report<'_> {
                 }
                 _ => None,
             };
-            found = found.or(quantity.filter(|(dimension, _)| *dimension == constraint.dimension).map(|(_, unit)| unit));
+            found =
+                found.or(quantity.filter(|(dimension, _)| *dimension == constraint.dimension).map(|(_, unit)| unit));
         });
         found
     }
