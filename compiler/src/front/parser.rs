@@ -47,7 +47,7 @@ pub(crate) fn parse_constraint(text: &Text) -> Result<Expression, Box<Diagnostic
         let offset = token.range.start;
         let unit = parser.slice(offset..text.value.len()).trim_end();
         let unit_span = text.at(offset..offset + unit.len());
-        let written = unit.to_owned();
+        let written = unit.into();
         let unit = parse_unit(unit).map_err(|error| unit_diagnostic(error, text, offset))?;
         let span = right.span.to(unit_span);
         match &mut right.kind {

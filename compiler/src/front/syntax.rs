@@ -11,7 +11,7 @@ pub(crate) struct Expression {
     /// Every name in it, in the order of the text, called functions included.
     pub(crate) names: Vec<NameUse>,
     /// The unit behind a constraint's bound, as it was written.
-    pub(crate) unit: Option<String>,
+    pub(crate) unit: Option<Box<str>>,
 }
 
 /// An occurrence of a name.
