@@ -1,7 +1,7 @@
 //! `gaitc gait MODEL`: a periodic gait, its stability and its measures.
 
 use super::args::{Cli, GaitArgs};
-use super::guards::Guards;
+use super::guards::{self, Guards};
 use super::{InputError, Outcome, inputs, output};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
@@ -154,9 +154,9 @@ impl Report<'_> {
     fn warning(&self, warning: &Warning) -> String {
         match *warning {
             Warning::Grazing { transition, time, transversality } => format!(
-                "the guard of `{}` is only grazed at {time:.6} s (its time derivative there is {transversality:.1e}): the \
-                 linearisation is not valid",
-                self.transition(transition)
+                "the guard of `{}` is only grazed at {time:.6} s (its rate there is {}): the linearisation is not valid",
+                self.transition(transition),
+                guards::rate(transversality, guards::dimension(&self.loaded.spec, transition))
             ),
             Warning::Tie { taken, other, time } => format!(
                 "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",

@@ -113,7 +113,7 @@ impl Guards<'_> {
     fn crossing(&self, index: usize) -> Option<Vec<String>> {
         let fired: Vec<&Event> = self.map.events.iter().filter(|e| e.transition == index).collect();
         let flattest = fired.iter().min_by(|a, b| steepness(a).total_cmp(&steepness(b)))?;
-        let dimension = self.transition(index).map_or(Dimension::NONE, |t| t.guard_dimension);
+        let dimension = dimension(self.spec, index);
         let mut says = format!(
             "crosses zero at {}, transversality {}",
             format_quantity(flattest.time, "s"),
@@ -153,8 +153,13 @@ fn percent(fraction: f64) -> String {
     if percent >= 1.0 { format!("{percent:.0}%") } else { format!("{percent:.1e}%") }
 }
 
+/// The dimension of a transition's guard.
+pub(super) fn dimension(spec: &Model, transition: usize) -> Dimension {
+    spec.transitions.get(transition).map_or(Dimension::NONE, |t| t.guard_dimension)
+}
+
 /// A rate of a function of this dimension, in SI units.
-fn rate(value: f64, dimension: Dimension) -> String {
+pub(super) fn rate(value: f64, dimension: Dimension) -> String {
     match dimension.div(Dimension::TIME) {
         Some(dimension) => format_si(value, dimension),
         None => format!("{} (SI)", format_number(value)),
