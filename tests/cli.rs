@@ -23,6 +23,13 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["gait", "prescribed_length", "--guess", "r=1 m"], &["no section coordinate is named `r`", "q_theta"]),
     (&["gait", "prescribed_length", "--tol", "0"], &["--tol", "1e-15"]),
     (&["gait", "prescribed_length", "--tol", "nan"], &["--tol"]),
+    (
+        &["gait", "prescribed_length", "--method", "rk4"],
+        &["--method: no method is named `rk4`", "auto, explicit, radau5, radau3"],
+    ),
+    (&["optimize", "prescribed_length", "--method", "radau4"], &["did you mean `radau5`?"]),
+    (&["gait", "self_exciting", "--method", "explicit"], &["`self_exciting` has a mass matrix", "`radau5`"]),
+    (&["optimize", "self_exciting", "--method", "explicit"], &["`self_exciting` has a mass matrix", "`radau5`"]),
     (&["gait", "prescribed_length", "--period", "0"], &["--period"]),
     (&["gait", "prescribed_length", "--specs", "/nonexistent"], &["/nonexistent"]),
     (
@@ -125,6 +132,34 @@ fn models_and_help_are_there() {
     assert!(value["models"].as_array().unwrap().iter().any(|m| m["model"] == "prescribed_length"), "{value:#}");
     for args in [&["--help"][..], &["gait", "--help"], &["optimize", "--help"], &["--version"]] {
         assert_eq!(text(args).0, 0, "{args:?}");
+    }
+}
+
+/// What a newton more is worth is a thousandth of what a kilonewton more is; both are printed as the user wrote them.
+#[test]
+fn a_price_is_in_the_unit_of_its_constraint() {
+    let price = |constraint: &str| {
+        let vary = ["--vary", "psi=1..45 deg", "--subject-to", constraint];
+        let (_, out, _) = text(&[&["optimize", "prescribed_length", "--maximize", "climb_speed"], &vary[..]].concat());
+        let line = out.lines().find_map(|line| line.trim().strip_prefix(constraint)).expect(&out).trim().to_owned();
+        let (number, per) = line.split_once(" m/s per ").expect(&line);
+        (number.parse::<f64>().unwrap(), per.to_owned())
+    };
+    let (in_newton, newton) = price("peak_force <= 85 N");
+    let (in_kilonewton, kilonewton) = price("peak_force <= 0.085 kN");
+    assert_eq!((newton.as_str(), kilonewton.as_str()), ("N", "kN"));
+    approx::assert_relative_eq!(1000.0 * in_newton, in_kilonewton, max_relative = 1e-3);
+    // Without a unit behind the bound it is that of the measure.
+    assert_eq!(price("peak_force <= 85/25.506*m*g").1, "N");
+}
+
+#[test]
+fn a_coarse_tolerance_still_finds_a_gait() {
+    for tolerance in ["1e-3", "1e-5", "1e-7"] {
+        for method in ["explicit", "radau5", "radau3"] {
+            let (code, gait) = json(&["gait", "prescribed_length", "--tol", tolerance, "--method", method]);
+            assert_eq!((code, gait["method"].as_str()), (0, Some(method)), "{gait:#}");
+        }
     }
 }
 

@@ -99,7 +99,11 @@ fn constraints_and_objectives() {
     assert_eq!(model.graph.constant_value(stable.stability_bound.unwrap()), Some(0.9));
     let force = parse_constraint(&mut model, "peak_force <= 150 N").unwrap();
     assert_eq!((force.stability_bound, force.dimension, &*force.text), (None, dimension("N"), "peak_force <= 150 N"));
-    assert_eq!(parse_constraint(&mut model, "climb_speed >= 2*lateral_speed").unwrap().dimension, dimension("m/s"));
+    let faster = parse_constraint(&mut model, "climb_speed >= 2*lateral_speed").unwrap();
+    assert_eq!((faster.dimension, &faster.unit), (dimension("m/s"), &None));
+    let unit = |text: &str, model: &mut Model| parse_constraint(model, text).unwrap().unit;
+    assert_eq!(unit("climb_speed <= 2*pi km / h ", &mut model).as_deref(), Some("km / h"));
+    assert_eq!(unit("climb_speed <= 2 [km/h]", &mut model), None);
     let (node, unit) = parse_objective(&mut model, "spectral_radius").unwrap();
     assert_eq!((model.graph.node(node), unit), (Node::Symbol(Symbol::SpectralRadius), Dimension::NONE));
     assert_eq!(parse_objective(&mut model, "climb_speed/omega").unwrap().1, dimension("m"));

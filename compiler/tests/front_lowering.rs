@@ -183,6 +183,7 @@ fn transitions_reset_from_pre_values_and_keep_memory() {
     let model = model(STEP, "0");
     let step = &model.transitions[0];
     assert_eq!(show(&model, step.guard), "sub(x, a)");
+    assert_eq!((step.guard_text.as_str(), step.guard_dimension.to_string().as_str()), ("x - a", "m"));
     // In `when` nothing is frozen: and is the smaller, or the larger margin.
     let or = "choose(sub(neg(x), sub(k, 2)), neg(x), sub(k, 2))";
     let when = format!("choose(sub(neg({or}), v), v, neg({or}))");

@@ -70,6 +70,9 @@ pub(crate) struct SearchArgs {
     /// Relative tolerance of the integration's local error
     #[arg(long, value_name = "NUMBER")]
     pub(crate) tol: Option<f64>,
+    /// How to integrate: auto, explicit (order 8), radau5 (Radau IIA with 5 stages) or radau3
+    #[arg(long, value_name = "METHOD")]
+    pub(crate) method: Option<String>,
 }
 
 #[derive(Debug, Args)]

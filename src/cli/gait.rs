@@ -1,16 +1,28 @@
 //! `gaitc gait MODEL`: a periodic gait, its stability and its measures.
 
 use super::args::{Cli, GaitArgs};
+use super::guards::{self, Guards};
 use super::{InputError, Outcome, inputs, output};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{StopReason, Warning};
+use gaitc_runtime::return_map::{Method, StopReason, Warning};
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
-const GAIT_KEYS: [&str; 9] =
-    ["section", "state", "duration", "jacobian", "multipliers", "spectral_radius", "stable", "measures", "events"];
+const GAIT_KEYS: [&str; 11] = [
+    "section",
+    "state",
+    "duration",
+    "jacobian",
+    "multipliers",
+    "spectral_radius",
+    "stable",
+    "measures",
+    "events",
+    "also_zero",
+    "method",
+];
 
 /// Longer periods are not gaits that anybody could tell from chaos.
 const LONGEST_PERIOD: usize = 1000;
@@ -24,7 +36,10 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let guess = inputs::guess(&loaded, &args.search)?;
     let memory = loaded.memory();
     let accuracy = inputs::accuracy(&args.search)?;
-    let request = GaitRequest { period: args.period, accuracy, ..GaitRequest::new(&parameters, &memory) };
+    let request = GaitRequest::new(&parameters, &memory);
+    // A map that is integrated more coarsely is no smoother than its tolerance: nor can its fixed point be.
+    let tolerance = request.tolerance.max(10.0 * accuracy.relative);
+    let request = GaitRequest { period: args.period, accuracy, tolerance, ..request };
     let outcome = find_gait(loaded.compiled, &request, &guess)?;
     let warnings = inputs::outside_range(&loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };
@@ -96,13 +111,7 @@ impl Report<'_> {
     fn gait_json(&self, gait: &Gait) -> Map<String, Value> {
         let (spec, map) = (&self.loaded.spec, &gait.map);
         let states = spec.states.iter().map(|s| s.name.as_str());
-        let event = |e: &gaitc_runtime::return_map::Event| {
-            json!({
-                "transition": self.transition(e.transition),
-                "time": e.time,
-                "transversality": e.transversality,
-            })
-        };
+        let guards = Guards { spec, map };
         let rows: Vec<Vec<f64>> = map.jacobian.row_iter().map(|row| row.iter().copied().collect()).collect();
         let mut all = Map::new();
         let measures = spec.measures.iter().map(|m| m.name.as_str());
@@ -115,7 +124,9 @@ impl Report<'_> {
             ("spectral_radius", json!(gait.spectral_radius)),
             ("stable", json!(gait.spectral_radius < 1.0)),
             ("measures", named(measures, map.measures.as_slice())),
-            ("events", map.events.iter().map(event).collect()),
+            ("events", guards.events_json()),
+            ("also_zero", guards.also_zero_json()),
+            ("method", json!(inputs::method_name(map.method))),
         ] {
             all.insert(key.to_owned(), value);
         }
@@ -143,9 +154,9 @@ impl Report<'_> {
     fn warning(&self, warning: &Warning) -> String {
         match *warning {
             Warning::Grazing { transition, time, transversality } => format!(
-                "the guard of `{}` is only grazed at {time:.6} s (its time derivative there is {transversality:.1e}): the \
-                 linearisation is not valid",
-                self.transition(transition)
+                "the guard of `{}` is only grazed at {time:.6} s (its rate there is {}): the linearisation is not valid",
+                self.transition(transition),
+                guards::rate(transversality, guards::dimension(&self.loaded.spec, transition))
             ),
             Warning::Tie { taken, other, time } => format!(
                 "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",
@@ -173,7 +184,8 @@ impl Report<'_> {
         let measures = spec.measures.iter().zip(gait.map.measures.iter());
         rows.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
         text += &format!("\n{}", output::table(&["gait", "value"], rows));
-        text + &stability(gait)
+        text += &format!("\n{}", Guards { spec, map: &gait.map }.table());
+        text + &stability(gait) + &integration(gait.map.method)
     }
 }
 
@@ -188,6 +200,16 @@ fn stability(gait: &Gait) -> String {
     };
     let table = output::table(&["multiplier", "magnitude"], gait.multipliers.iter().map(row));
     format!("\n{table}\n{verdict}: spectral radius {:.6}\n", gait.spectral_radius)
+}
+
+/// How it was integrated, unless by the explicit method, which is the rule.
+fn integration(method: Method) -> String {
+    let stages = match method {
+        Method::Radau5 => 5,
+        Method::Radau3 => 3,
+        Method::Automatic | Method::Explicit => return String::new(),
+    };
+    format!("integrated with {} (implicit, Radau IIA with {stages} stages)\n", inputs::method_name(method))
 }
 
 fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {

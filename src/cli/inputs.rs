@@ -1,4 +1,4 @@
-//! From flags to numbers: `--set`, `--guess`, `--tol`.
+//! From flags to numbers: `--set`, `--guess`, `--tol`, `--method`.
 
 use super::InputError;
 use super::args::{ModelArgs, SearchArgs};
@@ -6,7 +6,15 @@ use crate::load::Loaded;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::Parameter;
-use gaitc_runtime::return_map::Accuracy;
+use gaitc_runtime::return_map::{Accuracy, Method};
+
+/// What `--method` takes.
+const METHODS: [(&str, Method); 4] = [
+    ("auto", Method::Automatic),
+    ("explicit", Method::Explicit),
+    ("radau5", Method::Radau5),
+    ("radau3", Method::Radau3),
+];
 
 /// The spec's parameter values with every `--set` applied.
 pub(super) fn parameters(loaded: &Loaded, args: &ModelArgs) -> Result<Vec<f64>, InputError> {
@@ -55,9 +63,10 @@ pub(super) fn guess(loaded: &Loaded, args: &SearchArgs) -> Result<Vec<f64>, Inpu
     Ok(values)
 }
 
-/// The default accuracy, or that of `--tol`.
+/// The default accuracy and method, or those of `--tol` and `--method`.
 pub(super) fn accuracy(args: &SearchArgs) -> Result<Accuracy, InputError> {
-    let accuracy = Accuracy::default();
+    let method = args.method.as_deref().map_or(Ok(Method::Automatic), method)?;
+    let accuracy = Accuracy { method, ..Accuracy::default() };
     match args.tol {
         None => Ok(accuracy),
         // Below a few units of rounding no step can be accepted.
@@ -66,6 +75,19 @@ pub(super) fn accuracy(args: &SearchArgs) -> Result<Accuracy, InputError> {
         }
         Some(tol) => Err(InputError(format!("--tol {tol}: give a number from 1e-15 to 1e-2"))),
     }
+}
+
+/// The integration method of a name.
+fn method(name: &str) -> Result<Method, InputError> {
+    let known = METHODS.iter().find(|(known, _)| *known == name);
+    known
+        .map(|(_, method)| *method)
+        .ok_or_else(|| unknown("--method", "method", name, &METHODS.map(|(known, _)| known)))
+}
+
+/// The name of an integration method.
+pub(super) fn method_name(method: Method) -> &'static str {
+    METHODS.iter().find(|(_, known)| *known == method).map_or("auto", |(name, _)| name)
 }
 
 /// Index of a parameter that a flag names.

@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod gait;
+mod guards;
 mod inputs;
 mod models;
 mod optimize;

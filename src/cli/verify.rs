@@ -1,9 +1,11 @@
-//! `gaitc verify MODEL`: correct digits of every generated derivative.
+//! `gaitc verify MODEL`: correct digits of every generated derivative, and the health of the guards.
 
 use super::args::{Cli, VerifyArgs};
+use super::guards::Guards;
 use super::{InputError, Outcome, output};
-use crate::load::load;
+use crate::load::{Loaded, load};
 use crate::verify::{Checked, verify};
+use gaitc_runtime::orbit::{Gait, GaitRequest, GaitStatus, find_gait};
 use serde_json::json;
 
 /// Fewer correct digits than this are a defect of the generated code.
@@ -19,7 +21,9 @@ pub(super) fn run(cli: &Cli, args: &VerifyArgs) -> Result<Outcome, InputError> {
     let loaded = load(&args.model, cli.specs.as_deref())?;
     let checked = verify(&loaded, args.samples, args.seed);
     let worst = checked.iter().map(|c| c.digits).fold(f64::INFINITY, f64::min);
+    let gait = default_gait(&loaded);
     if cli.json {
+        let guards = gait.as_ref().ok().map(|gait| Guards { spec: &loaded.spec, map: &gait.map });
         let one = |c: &Checked| {
             json!({
                 "function": c.function,
@@ -31,6 +35,9 @@ pub(super) fn run(cli: &Cli, args: &VerifyArgs) -> Result<Outcome, InputError> {
         output::json(&json!({
             "model": args.model,
             "derivatives": checked.iter().map(one).collect::<Vec<_>>(),
+            "guards": guards.as_ref().map(Guards::events_json),
+            "also_zero": guards.as_ref().map(Guards::also_zero_json),
+            "no_gait": gait.as_ref().err(),
         }));
     } else {
         let row = |c: &Checked| {
@@ -41,6 +48,22 @@ pub(super) fn run(cli: &Cli, args: &VerifyArgs) -> Result<Outcome, InputError> {
         output::print(&format!(
             "\nworst: {worst:.1} digits; the reference evaluates the spec with nilpotent numbers, without CasADi\n"
         ));
+        output::print(&match &gait {
+            Ok(gait) => format!(
+                "\n{}\nof the gait with the spec's parameters\n",
+                Guards { spec: &loaded.spec, map: &gait.map }.table()
+            ),
+            Err(reason) => format!("\nguards are not looked at without a gait: {reason}\n"),
+        });
     }
     Ok(if worst >= ENOUGH { Outcome::Done } else { Outcome::Without })
+}
+
+/// The gait that the spec's own values give, or why there is none: that is no defect of the generated code.
+fn default_gait(loaded: &Loaded) -> Result<Gait, String> {
+    let (parameters, memory) = (loaded.parameters(), loaded.memory());
+    let request = GaitRequest::new(&parameters, &memory);
+    let outcome = find_gait(loaded.compiled, &request, &loaded.start()).map_err(|error| error.to_string())?;
+    let gait = outcome.gait.filter(|_| outcome.status == GaitStatus::Converged);
+    gait.ok_or(outcome.message)
 }

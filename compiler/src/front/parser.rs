@@ -22,7 +22,7 @@ pub(crate) fn parse_expression(text: &Text) -> Result<Expression, Box<Diagnostic
     let mut parser = Parser::new(text)?;
     let root = parser.expression(0)?;
     parser.end()?;
-    Ok(Expression { root, names: parser.names })
+    Ok(Expression { root, names: parser.names, unit: None })
 }
 
 /// Reads a constant expression as far as it goes; the rest of the text, from the returned offset, is a unit.
@@ -30,7 +30,7 @@ pub(crate) fn parse_value(text: &Text) -> Result<(Expression, usize), Box<Diagno
     let mut parser = Parser::new(text)?;
     let root = parser.expression(0)?;
     let rest = parser.peek().range.start;
-    Ok((Expression { root, names: parser.names }, rest))
+    Ok((Expression { root, names: parser.names, unit: None }, rest))
 }
 
 /// Reads a constraint: an expression whose right side, where it is constant, may be a quantity, as in
@@ -47,6 +47,7 @@ pub(crate) fn parse_constraint(text: &Text) -> Result<Expression, Box<Diagnostic
         let offset = token.range.start;
         let unit = parser.slice(offset..text.value.len()).trim_end();
         let unit_span = text.at(offset..offset + unit.len());
+        let written = unit.into();
         let unit = parse_unit(unit).map_err(|error| unit_diagnostic(error, text, offset))?;
         let span = right.span.to(unit_span);
         match &mut right.kind {
@@ -60,10 +61,10 @@ pub(crate) fn parse_constraint(text: &Text) -> Result<Expression, Box<Diagnostic
         }
         right.span = span;
         root.span = root.span.to(span);
-        return Ok(Expression { root, names: parser.names });
+        return Ok(Expression { root, names: parser.names, unit: Some(written) });
     }
     parser.end()?;
-    Ok(Expression { root, names: parser.names })
+    Ok(Expression { root, names: parser.names, unit: None })
 }
 
 /// A unit's complaint as a diagnostic; `offset` is where the unit starts in `text`.

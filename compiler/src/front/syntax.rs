@@ -10,6 +10,8 @@ pub(crate) struct Expression {
     pub(crate) root: Expr,
     /// Every name in it, in the order of the text, called functions included.
     pub(crate) names: Vec<NameUse>,
+    /// The unit behind a constraint's bound, as it was written.
+    pub(crate) unit: Option<Box<str>>,
 }
 
 /// An occurrence of a name.

@@ -133,6 +133,10 @@ pub struct Transition {
     pub to: usize,
     /// The guard function.
     pub guard: NodeId,
+    /// The guard as the user wrote it.
+    pub guard_text: String,
+    /// Its dimension.
+    pub guard_dimension: Dimension,
     /// Crossing direction that fires.
     pub direction: Direction,
     /// Enabled where this margin is `>= 0`; `None` is always.
@@ -272,4 +276,6 @@ pub struct Constraint {
     pub text: String,
     /// Dimension of the margin.
     pub dimension: Dimension,
+    /// The unit behind the bound, where it has one, as in `peak_force <= 150 N`.
+    pub unit: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use crate::cli::output;
 use gaitc_compiler::front::{format_number, format_quantity, format_si, in_unit};
-use gaitc_compiler::ir::{Model, Problem, Sense};
+use gaitc_compiler::ir::{Constraint, Model, Node, Problem, Sense, Symbol};
 use gaitc_runtime::optimize::{Active, ActiveKind, Solution, Status};
 use serde_json::{Map, Value, json};
 
@@ -125,20 +125,47 @@ impl Report<'_> {
         }
     }
 
-    /// What one natural step of the bound is worth: 0.01 of a spectral radius, one unit of a parameter, one SI unit
-    /// of anything else.
+    /// What one natural step of the bound is worth: 0.01 of a spectral radius, one of the unit that the user wrote of
+    /// anything else, one SI unit where there is none.
     fn price(&self, active: &Active) -> String {
         let (step, per) = match active.kind {
             ActiveKind::LowerBound(i) | ActiveKind::UpperBound(i) => {
                 let unit = &self.spec.parameters[i].unit;
-                (1.0 / in_unit(1.0, unit), format!("1 {unit}"))
+                (1.0 / in_unit(1.0, unit), one(unit))
             }
             ActiveKind::Constraint(i) if self.problem.constraints[i].stability_bound.is_some() => {
                 (0.01, "0.01 of spectral radius (stability)".to_owned())
             }
-            ActiveKind::Constraint(i) => (1.0, format_si(1.0, self.problem.constraints[i].dimension)),
+            ActiveKind::Constraint(i) => {
+                let constraint = &self.problem.constraints[i];
+                match self.unit(constraint) {
+                    Some(unit) => (1.0 / in_unit(1.0, unit), one(unit)),
+                    None => (1.0, format_si(1.0, constraint.dimension)),
+                }
+            }
         };
         format!("{} per {per}", self.objective_quantity(active.multiplier * step))
+    }
+
+    /// The unit in which people think of a constraint: that behind its bound, else that of a measure or parameter of
+    /// the same dimension in it.
+    fn unit<'a>(&'a self, constraint: &'a Constraint) -> Option<&'a str> {
+        if let Some(unit) = &constraint.unit {
+            return Some(unit);
+        }
+        let mut found: Option<&str> = None;
+        self.spec.graph.visit(&[constraint.margin], |_, node| {
+            let quantity = match node {
+                Node::Symbol(Symbol::Measure(i)) => self.spec.measures.get(i).map(|m| (m.dimension, m.unit.as_str())),
+                Node::Symbol(Symbol::Parameter(i)) => {
+                    self.spec.parameters.get(i).map(|p| (p.dimension, p.unit.as_str()))
+                }
+                _ => None,
+            };
+            found =
+                found.or(quantity.filter(|(dimension, _)| *dimension == constraint.dimension).map(|(_, unit)| unit));
+        });
+        found
     }
 
     /// A value of the objective: in the unit of the measure that it is, else in SI units.
@@ -147,6 +174,15 @@ impl Report<'_> {
             Some(measure) => format_quantity(value, &measure.unit),
             None => format_si(value, self.problem.objective_dimension),
         }
+    }
+}
+
+/// One of a unit, as it stands behind `per`.
+fn one(unit: &str) -> String {
+    match unit.trim() {
+        "" => "1".to_owned(),
+        unit if unit.contains(['/', ' ', '*']) => format!("({unit})"),
+        unit => unit.to_owned(),
     }
 }
 

@@ -160,6 +160,7 @@ impl Lowering<'_> {
             let to = to.as_ref().and_then(|name| self.mode(spec, name));
             let has_mass = from.and_then(|from| self.model.modes.get(from)).is_some_and(|mode| mode.mass.is_some());
             let rates = if has_mass { Rates::Unknown } else { Rates::Known };
+            let guard_text = guard.as_ref().map_or(String::new(), |guard| guard.text.value.trim().to_owned());
             let guard = guard.as_ref().and_then(|guard| self.guard(guard, rates));
             let when = when.as_ref().and_then(|when| self.condition(when, Place::When(rates)));
             let has_state = to.and_then(|to| self.model.modes.get(to)).map(|mode| mode.has_state.clone());
@@ -170,6 +171,8 @@ impl Lowering<'_> {
                 from: from.unwrap_or(0),
                 to: to.unwrap_or(0),
                 guard: guard.map_or(zero, |value| value.node),
+                guard_text,
+                guard_dimension: guard.and_then(|value| value.dimension).unwrap_or(Dimension::NONE),
                 direction: direction.unwrap_or(ir::Direction::Either),
                 when: when.map(|value| value.node),
                 reset,

@@ -116,6 +116,7 @@ impl Lowering<'_> {
             stability_bound: bound.then_some(large.node),
             text: equation.text.value.trim().to_owned(),
             dimension: dimension.unwrap_or(Dimension::NONE),
+            unit: equation.expression.as_ref().and_then(|expression| expression.unit.as_deref().map(str::to_owned)),
         })
     }
 
