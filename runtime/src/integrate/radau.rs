@@ -10,7 +10,7 @@ use crate::return_map;
 use core::marker::PhantomData;
 
 /// Newton's method goes on until what is left is this fraction of the tolerance.
-const NEWTON: f64 = 0.03;
+const NEWTON: f64 = 0.1;
 /// Changes of so many units in the last place cannot be told from rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Factor of the tolerance for the error estimate.
