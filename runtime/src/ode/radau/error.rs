@@ -12,7 +12,8 @@
 //! has to be small.
 
 use super::coefficients::Tableau;
-use super::stages::{Workspace, row_scale};
+use super::elimination::row_scale;
+use super::stages::Workspace;
 use crate::model::Linearised;
 use crate::ode::{Bundle, OdeState, Tolerance};
 
@@ -39,10 +40,10 @@ impl<const S: usize> Tableau<S> {
 impl<const N: usize, const S: usize> Workspace<N, S> {
     /// Factorises F_k + h gamma F_x, the matrix that turns a defect into an error.
     pub fn factorise_filter(&mut self, h_gamma: f64, at: &Linearised<f64, N>) -> bool {
-        for (a, [row]) in self.filter.rows_mut().iter_mut().enumerate() {
+        for a in 0..N {
             let scale = row_scale(at, h_gamma, a);
             for b in 0..N {
-                row[b] = scale * (at.dk[b][a] + h_gamma * at.dx[b][a]);
+                self.filter.set(a, b, Some(&[[scale * (at.dk[b][a] + h_gamma * at.dx[b][a])]]));
             }
         }
         self.filter.factorise()
@@ -50,16 +51,15 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
 
     /// (F_k + h gamma F_x)^-1 F_k d, with `h_gamma` as in [`Self::factorise_filter`].
     pub fn filtered(&mut self, h_gamma: f64, at: &Linearised<f64, N>, d: &[f64; N]) -> [f64; N] {
-        let mut e = [[0.0; N]];
-        for a in 0..N {
+        let right = |a: usize| {
             let mut sum = 0.0;
             for b in 0..N {
                 sum += at.dk[b][a] * d[b];
             }
-            e[0][a] = row_scale(at, h_gamma, a) * sum;
-        }
-        self.filter.solve(&mut e);
-        e[0]
+            [row_scale(at, h_gamma, a) * sum]
+        };
+        let e = self.filter.solve(right);
+        core::array::from_fn(|a| e[a][0])
     }
 }
 

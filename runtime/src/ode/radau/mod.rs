@@ -7,9 +7,11 @@
 //! those of the last stage.
 //!
 //! `coefficients` has the methods, `stages` solves for the rates of the state, `variations` differentiates the solution,
-//! `polynomial` is the collocation polynomial (dense output, prediction), `error` the error estimate, `lu` the linear algebra.
+//! `polynomial` is the collocation polynomial (dense output, prediction), `error` the error estimate, `elimination` and `lu` the
+//! linear algebra.
 
 mod coefficients;
+mod elimination;
 mod error;
 mod lu;
 mod polynomial;

@@ -5,6 +5,7 @@
 //! as the iteration contracts well.
 
 use super::coefficients::Tableau;
+use super::elimination::System;
 use super::lu::Factors;
 use super::polynomial::weighted;
 use crate::model::Linearised;
@@ -26,62 +27,12 @@ pub trait Implicit<const N: usize> {
 pub type Rates<const N: usize, const S: usize> = [[f64; N]; S];
 
 /// Matrices that are used again from step to step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Workspace<const N: usize, const S: usize> {
-    /// The matrix of all stages.
-    pub(super) stages: Factors<N, S>,
+    /// The equations of all stages.
+    pub(super) stages: System<N, S>,
     /// The matrix of the error estimate.
-    pub(super) filter: Factors<N, 1>,
-    /// What the rows of the matrix of all stages were divided by.
-    pub(super) scales: Rates<N, S>,
-}
-
-impl<const N: usize, const S: usize> Default for Workspace<N, S> {
-    fn default() -> Self {
-        Self { stages: Factors::default(), filter: Factors::default(), scales: [[1.0; N]; S] }
-    }
-}
-
-impl<const N: usize, const S: usize> Workspace<N, S> {
-    /// Fills in and factorises the matrix of all stages; each row is scaled, as equations have different units.
-    pub(super) fn factorise(&mut self, tableau: &Tableau<S>, h: f64, linearised: &[Linearised<f64, N>; S]) -> bool {
-        let rows = self.stages.rows_mut();
-        for (i, at) in linearised.iter().enumerate() {
-            for a in 0..N {
-                let scale = row_scale(at, h, a);
-                self.scales[i][a] = scale;
-                let row = &mut rows[i * N + a];
-                let by_state: [f64; N] = core::array::from_fn(|b| scale * h * at.dx[b][a]);
-                for (block, weight) in row.iter_mut().zip(&tableau.a[i]) {
-                    *block = by_state.map(|v| weight * v);
-                }
-                for b in 0..N {
-                    row[i][b] += scale * at.dk[b][a];
-                }
-            }
-        }
-        self.stages.factorise()
-    }
-
-    /// Solves for the rates of all stages; the right-hand side is not scaled.
-    pub(super) fn solve(&mut self, b: &mut Rates<N, S>) {
-        for (b, scales) in b.iter_mut().zip(&self.scales) {
-            for a in 0..N {
-                b[a] *= scales[a];
-            }
-        }
-        self.stages.solve(b);
-    }
-}
-
-/// The inverse of the largest derivative of equation a; 1 where all vanish, which is found when factorising.
-#[inline]
-pub(super) fn row_scale<const N: usize>(at: &Linearised<f64, N>, h: f64, a: usize) -> f64 {
-    let mut largest = 0.0_f64;
-    for b in 0..N {
-        largest = largest.max(at.dk[b][a].abs()).max((h * at.dx[b][a]).abs());
-    }
-    if largest > 0.0 { 1.0 / largest } else { 1.0 }
+    pub(super) filter: Factors<1, N>,
 }
 
 /// State at stage i.
@@ -117,7 +68,7 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
             let linearised = core::array::from_fn(|i| {
                 equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
             });
-            if !work.factorise(tableau, h, &linearised) {
+            if !work.stages.factorise(&tableau.a, h, &linearised) {
                 return None;
             }
             step = core::array::from_fn(|i| linearised[i].value);
@@ -127,7 +78,7 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
                 step[i] = equation.residual(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
             }
         }
-        work.solve(&mut step);
+        let step = work.stages.solve(&step);
         for (k, step) in k.iter_mut().zip(&step) {
             for a in 0..N {
                 k[a] -= step[a];

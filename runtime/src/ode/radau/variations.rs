@@ -27,23 +27,22 @@ impl<const N: usize, const S: usize> Differentiated<N, S> {
         let linearised = core::array::from_fn(|i| {
             equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
         });
-        work.factorise(tableau, h, &linearised).then_some(Self { linearised })
+        work.stages.factorise(&tableau.a, h, &linearised).then_some(Self { linearised })
     }
 
     /// Variations of the rates of all stages for the variation `dx` of the state at the start; `forced[i]` is what other
     /// variations (of parameters, of time) add to the variation of F at stage i.
     pub fn column(&self, dx: &[f64; N], forced: &Rates<N, S>, work: &mut Workspace<N, S>) -> Rates<N, S> {
-        let mut dk = [[0.0; N]; S];
+        let mut right = [[0.0; N]; S];
         for (i, at) in self.linearised.iter().enumerate() {
             for a in 0..N {
                 let mut sum = forced[i][a];
                 for b in 0..N {
                     sum += at.dx[b][a] * dx[b];
                 }
-                dk[i][a] = -sum;
+                right[i][a] = -sum;
             }
         }
-        work.solve(&mut dk);
-        dk
+        work.stages.solve(&right)
     }
 }
