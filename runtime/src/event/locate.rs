@@ -28,7 +28,8 @@ pub(crate) fn locate(
             high = high.min(h);
         }
         let newton = h - at.value / at.rate;
-        if (newton - h).abs() <= smallest {
+        // What is left after Newton's step is of the size of its square.
+        if (newton - h).abs() <= smallest.max(1e-9 * high.abs()) {
             return newton;
         }
         // A bracket from the dense output may miss by its error: Newton may leave it by as much, but no further.

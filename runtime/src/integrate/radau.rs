@@ -3,19 +3,18 @@
 use super::{Carried, Frame, Held, Method, Point, Purpose, StateStep, StepOf, Typical};
 use crate::model::{Linearised, Model};
 use crate::ode::radau::{
-    Differentiated, Implicit, Polynomial, RADAU3, RADAU5, Rates, Tableau, Workspace, size, solve,
-    tolerance_of_estimate, weighted,
+    Implicit, Polynomial, RADAU3, RADAU5, Rates, Tableau, Workspace, size, solve, tolerance_of_estimate, weighted,
 };
 use crate::ode::{Bundle, Controller, OdeState, Tolerance};
 use crate::return_map;
 use core::marker::PhantomData;
 
 /// Newton's method goes on until what is left is this fraction of the tolerance.
-const NEWTON: f64 = 0.03;
+const NEWTON: f64 = 0.1;
 /// Changes of so many units in the last place cannot be told from rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Factor of the tolerance for the error estimate.
-const FACTOR: f64 = 10.0;
+const FACTOR: f64 = 20.0;
 /// The same where functionals may take rates.
 const FACTOR_WITH_RATES: f64 = 0.1;
 /// How far the polynomial of the step before predicts, in its own lengths.
@@ -163,15 +162,15 @@ where
     ) -> f64 {
         step.h = h;
         let equation = equation::<M, P, Q>(held.frame);
-        let Some(last) = Self::solve_state::<M, N, P, Q, W, C>(&equation, step, tolerance, work, evaluations) else {
+        if !Self::solve_state::<M, N, P, Q, W, C>(&equation, step, tolerance, work, evaluations) {
             let at_start = equation.residual(step.tau, &step.start.x, &step.start_rates.x);
             return if at_start.iter().all(|v| v.is_finite()) { f64::INFINITY } else { f64::NAN };
-        };
+        }
         let advance = purpose == Purpose::Advance;
         let factor = if R::MEASURED { FACTOR_WITH_RATES } else { FACTOR };
         let estimate = tolerance_of_estimate(tolerance, S, factor);
         if advance {
-            let error = Self::state_error(step, &last, estimate, work);
+            let error = Self::state_error(step, estimate, work);
             if error.is_nan() || error > 1.0 {
                 return error;
             }
@@ -180,7 +179,7 @@ where
             return f64::INFINITY;
         }
         step.end = step.start.advance(h, Self::TABLEAU.a[S - 1], step.stages.k.each_ref());
-        if advance { Self::error(held.columns, step, &last, estimate, work) } else { 0.0 }
+        if advance { Self::error(held.columns, step, estimate, work) } else { 0.0 }
     }
 
     fn finish<
@@ -258,7 +257,7 @@ impl<const S: usize> Radau<S>
 where
     Self: Tabulated<S>,
 {
-    /// Solves for the rates of the state at the stages of `step`; the derivatives at the last stage.
+    /// Solves for the rates of the state at the stages of `step`; false when that fails.
     #[inline(never)]
     fn solve_state<
         M: Model<N, P, Q>,
@@ -273,34 +272,35 @@ where
         tolerance: Tolerance,
         work: &mut Workspace<N, S>,
         evaluations: &mut usize,
-    ) -> Option<Linearised<f64, N>> {
+    ) -> bool {
         let (t, x, place) = (&Self::TABLEAU, step.start.x, (step.tau, step.h));
         let scale = newton_scale(&x, tolerance);
         let mut run = |mut k: Rates<N, S>| {
             let solved = solve(t, equation, place, &x, &mut k, &scale, work);
-            *evaluations += S * solved.as_ref().map_or(1, |s| s.1);
-            solved.map(|(last, _)| (last, k))
+            *evaluations += S * solved.unwrap_or(1);
+            solved.map(|_| k)
         };
         let flat = [step.start_rates.x; S];
         let predicted = step.stages.polynomial.and_then(|polynomial| predict(t, &polynomial, place));
         let solved = predicted.and_then(&mut run).or_else(|| run(flat));
-        let (last, k) = solved?;
+        let Some(k) = solved else {
+            return false;
+        };
         for (stage, k) in step.stages.k.iter_mut().zip(&k) {
             stage.x = *k;
         }
         step.stages.polynomial = Some(Polynomial { tau: step.tau, h: step.h, start: x, rates: k });
-        Some(last)
+        true
     }
 
     /// The error of the state alone.
     fn state_error<const N: usize, const W: usize, const C: usize>(
         step: &StepOf<Self, N, W, C>,
-        last: &Linearised<f64, N>,
         estimate: Tolerance,
         work: &mut Workspace<N, S>,
     ) -> f64 {
         let t = &Self::TABLEAU;
-        if !work.factorise_filter(step.h * t.gamma, last) {
+        if !work.factorise_filter(step.h * t.gamma) {
             return f64::INFINITY;
         }
         let state = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };
@@ -308,22 +308,21 @@ where
         let start = state(step.start.x);
         let end = start.advance(step.h, t.a[S - 1], k.each_ref());
         let d = t.defect(step.h, &state(step.start_rates.x), &k);
-        size(&start, &end, &state(work.filtered(step.h * t.gamma, last, &d.x)), estimate)
+        size(&start, &end, &state(work.filtered(step.h * t.gamma, &d.x)), estimate)
     }
 
     /// The error of everything; after [`Self::state_error`].
     fn error<const N: usize, const W: usize, const C: usize>(
         columns: usize,
         step: &StepOf<Self, N, W, C>,
-        last: &Linearised<f64, N>,
         estimate: Tolerance,
         work: &mut Workspace<N, S>,
     ) -> f64 {
         let mut e = Self::TABLEAU.defect(step.h, &step.start_rates, &step.stages.k);
         let h_gamma = step.h * Self::TABLEAU.gamma;
-        e.x = work.filtered(h_gamma, last, &e.x);
+        e.x = work.filtered(h_gamma, &e.x);
         for column in e.dx.iter_mut().take(columns) {
-            *column = work.filtered(h_gamma, last, column);
+            *column = work.filtered(h_gamma, column);
         }
         size(&step.start, &step.end, &e, estimate)
     }
@@ -358,14 +357,14 @@ where
         let time = |s: usize| step.tau + t.c[s] * h;
         if held.columns > 0 {
             let place = (step.tau, h);
-            let Some(differentiated) = Differentiated::new(t, equation, place, &step.start.x, &k, work) else {
+            if !work.differentiate(t, equation, place, &step.start.x, &k) {
                 return false;
-            };
+            }
             *evaluations += S;
             let forced: [[[f64; N]; C]; S] = core::array::from_fn(|s| R::forced(held, time(s), &x[s], &k[s]));
             for c in 0..held.columns.min(C) {
                 let of_column = core::array::from_fn(|s| forced[s][c]);
-                let dk = differentiated.column(&step.start.dx[c], &of_column, work);
+                let dk = work.column(&step.start.dx[c], &of_column);
                 for (stage, dk) in step.stages.k.iter_mut().zip(&dk) {
                     stage.dx[c] = *dk;
                 }

@@ -14,7 +14,6 @@
 use super::coefficients::Tableau;
 use super::elimination::row_scale;
 use super::stages::Workspace;
-use crate::model::Linearised;
 use crate::ode::{Bundle, OdeState, Tolerance};
 
 /// The tolerance for the error estimate of a method with `stages` stages; `factor` as said above.
@@ -38,8 +37,9 @@ impl<const S: usize> Tableau<S> {
 }
 
 impl<const N: usize, const S: usize> Workspace<N, S> {
-    /// Factorises F_k + h gamma F_x, the matrix that turns a defect into an error.
-    pub fn factorise_filter(&mut self, h_gamma: f64, at: &Linearised<f64, N>) -> bool {
+    /// Factorises F_k + h gamma F_x at the end of the step that was solved for last: it turns a defect into an error.
+    pub fn factorise_filter(&mut self, h_gamma: f64) -> bool {
+        let at = &self.end;
         for a in 0..N {
             let scale = row_scale(at, h_gamma, a);
             for b in 0..N {
@@ -50,7 +50,8 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
     }
 
     /// (F_k + h gamma F_x)^-1 F_k d, with `h_gamma` as in [`Self::factorise_filter`].
-    pub fn filtered(&mut self, h_gamma: f64, at: &Linearised<f64, N>, d: &[f64; N]) -> [f64; N] {
+    pub fn filtered(&mut self, h_gamma: f64, d: &[f64; N]) -> [f64; N] {
+        let at = &self.end;
         let right = |a: usize| {
             let mut sum = 0.0;
             for b in 0..N {

@@ -22,7 +22,6 @@ pub use coefficients::{RADAU3, RADAU5, Tableau};
 pub use error::{size, tolerance_of_estimate};
 pub use polynomial::{Polynomial, weighted};
 pub use stages::{Implicit, Rates, Workspace, solve};
-pub use variations::Differentiated;
 
 #[cfg(test)]
 mod tests;

@@ -26,13 +26,41 @@ pub trait Implicit<const N: usize> {
 /// Rates of the stages.
 pub type Rates<const N: usize, const S: usize> = [[f64; N]; S];
 
-/// Matrices that are used again from step to step.
-#[derive(Clone, Debug, Default)]
+/// Derivatives and matrices, used again from step to step.
+#[derive(Clone, Debug)]
 pub struct Workspace<const N: usize, const S: usize> {
+    /// Derivatives at the stages.
+    pub(super) linearised: [Linearised<f64, N>; S],
     /// The equations of all stages.
     pub(super) stages: System<N, S>,
+    /// Derivatives at the last stage, where the matrix of Newton's method was made.
+    pub(super) end: Linearised<f64, N>,
     /// The matrix of the error estimate.
     pub(super) filter: Factors<1, N>,
+}
+
+impl<const N: usize, const S: usize> Default for Workspace<N, S> {
+    fn default() -> Self {
+        let zero = Linearised { value: [0.0; N], dx: [[0.0; N]; N], dk: [[0.0; N]; N] };
+        Self { linearised: [zero; S], stages: System::default(), end: zero, filter: Factors::default() }
+    }
+}
+
+impl<const N: usize, const S: usize> Workspace<N, S> {
+    /// Linearises at the stages with rates `k` and factorises; false when the matrix is singular.
+    pub(super) fn linearise<E: Implicit<N>>(
+        &mut self,
+        tableau: &Tableau<S>,
+        equation: &E,
+        (tau, h): (f64, f64),
+        x: &[f64; N],
+        k: &Rates<N, S>,
+    ) -> bool {
+        for (i, slot) in self.linearised.iter_mut().enumerate() {
+            *slot = equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
+        }
+        self.stages.factorise(&tableau.a, h, &self.linearised)
+    }
 }
 
 /// State at stage i.
@@ -49,8 +77,8 @@ pub(super) fn state_at<const N: usize, const S: usize>(
 }
 
 /// Solves for the rates `k` of the stages of a step of size `h` from (`tau`, `x`), starting from what `k` holds. `scale` is
-/// the size of a change of each state that does not matter. Also returns the derivatives at the last stage where the
-/// matrix was made; `None` when the iteration does not converge.
+/// the size of a change of each state that does not matter. Returns how many iterations it took; `None` when they do not
+/// converge.
 pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
     tableau: &Tableau<S>,
     equation: &E,
@@ -59,20 +87,18 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
     k: &mut Rates<N, S>,
     scale: &[f64; N],
     work: &mut Workspace<N, S>,
-) -> Option<(Linearised<f64, N>, usize)> {
-    let mut last: Option<Linearised<f64, N>> = None;
+) -> Option<usize> {
     let (mut before, mut stale) = (f64::INFINITY, true);
     for iteration in 1..=ITERATIONS {
         let mut step = [[0.0; N]; S];
         if stale {
-            let linearised = core::array::from_fn(|i| {
-                equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
-            });
-            if !work.stages.factorise(&tableau.a, h, &linearised) {
+            if !work.linearise(tableau, equation, (tau, h), x, k) {
                 return None;
             }
-            step = core::array::from_fn(|i| linearised[i].value);
-            last = Some(linearised[S - 1]);
+            for (value, at) in step.iter_mut().zip(&work.linearised) {
+                *value = at.value;
+            }
+            work.end = work.linearised[S - 1];
         } else {
             for i in 0..S {
                 step[i] = equation.residual(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
@@ -89,7 +115,7 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
             return None;
         }
         if done(iteration, size, before) {
-            return last.map(|last| (last, iteration));
+            return Some(iteration);
         }
         if iteration > 2 && size > 2.0 * before {
             return None;

@@ -142,10 +142,10 @@ fn the_error_estimate_falls_like_h_to_the_sixth() {
         let [x, y, z] = exact(0.1);
         let rates: [Bundle<3, 0, 0>; 5] = core::array::from_fn(|s| state(k[s]));
         let mut e = RADAU5.defect(h, &state([y * y, x * y, z]), &rates);
-        let at = Toy.linearised(0.1 + h, &end, &k[4]);
         let mut work = Workspace::<3, 5>::default();
-        assert!(work.factorise_filter(h * RADAU5.gamma, &at));
-        e.x = work.filtered(h * RADAU5.gamma, &at, &e.x);
+        work.end = Toy.linearised(0.1 + h, &end, &k[4]);
+        assert!(work.factorise_filter(h * RADAU5.gamma));
+        e.x = work.filtered(h * RADAU5.gamma, &e.x);
         size(&state(exact(0.1)), &state(end), &e, tolerance)
     };
     let measured = (estimate(0.2) / estimate(0.1)).log2();
@@ -163,11 +163,11 @@ fn variations_are_the_derivatives_of_the_discrete_step() {
     let x = exact(tau);
     let k = map(x);
     let mut work = Workspace::default();
-    let differentiated = Differentiated::new(&RADAU5, &Toy, (tau, h), &x, &k, &mut work).unwrap();
+    assert!(work.differentiate(&RADAU5, &Toy, (tau, h), &x, &k));
     for j in 0..3 {
         let mut dx = [0.0; 3];
         dx[j] = 1.0;
-        let column = differentiated.column(&dx, &[[0.0; 3]; 5], &mut work);
+        let column = work.column(&dx, &[[0.0; 3]; 5]);
         let shifted = |d: f64| {
             let mut moved = x;
             moved[j] += d;

@@ -5,34 +5,24 @@
 //! columns, the same matrix that Newton's method has at the solution.
 
 use super::coefficients::Tableau;
-use super::stages::{Implicit, Rates, Workspace, state_at};
-use crate::model::Linearised;
+use super::stages::{Implicit, Rates, Workspace};
 
-/// The derivatives of the equations at the stages of a solved step; their matrix is factorised in the workspace.
-#[derive(Clone, Copy, Debug)]
-pub struct Differentiated<const N: usize, const S: usize> {
-    linearised: [Linearised<f64, N>; S],
-}
-
-impl<const N: usize, const S: usize> Differentiated<N, S> {
-    /// Differentiates at the rates `k` of a solved step; `None` when the matrix is singular.
-    pub fn new<E: Implicit<N>>(
+impl<const N: usize, const S: usize> Workspace<N, S> {
+    /// Differentiates the equations at the rates `k` of a solved step; false when their matrix is singular.
+    pub fn differentiate<E: Implicit<N>>(
+        &mut self,
         tableau: &Tableau<S>,
         equation: &E,
-        (tau, h): (f64, f64),
+        place: (f64, f64),
         x: &[f64; N],
         k: &Rates<N, S>,
-        work: &mut Workspace<N, S>,
-    ) -> Option<Self> {
-        let linearised = core::array::from_fn(|i| {
-            equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i])
-        });
-        work.stages.factorise(&tableau.a, h, &linearised).then_some(Self { linearised })
+    ) -> bool {
+        self.linearise(tableau, equation, place, x, k)
     }
 
     /// Variations of the rates of all stages for the variation `dx` of the state at the start; `forced[i]` is what other
-    /// variations (of parameters, of time) add to the variation of F at stage i.
-    pub fn column(&self, dx: &[f64; N], forced: &Rates<N, S>, work: &mut Workspace<N, S>) -> Rates<N, S> {
+    /// variations (of parameters, of time) add to the variation of F at stage i. After [`Self::differentiate`].
+    pub fn column(&mut self, dx: &[f64; N], forced: &Rates<N, S>) -> Rates<N, S> {
         let mut right = [[0.0; N]; S];
         for (i, at) in self.linearised.iter().enumerate() {
             for a in 0..N {
@@ -43,6 +33,6 @@ impl<const N: usize, const S: usize> Differentiated<N, S> {
                 right[i][a] = -sum;
             }
         }
-        work.stages.solve(&right)
+        self.stages.solve(&right)
     }
 }
