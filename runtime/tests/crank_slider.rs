@@ -90,5 +90,5 @@ fn the_work_is_what_it_was() {
     let mut wanted = request(&z, &p, Sensitivity::Coordinates);
     wanted.accuracy = accuracy(1e-8);
     let statistics = completed(&M_S, &wanted).statistics;
-    assert!(statistics.steps <= 12 && statistics.evaluations <= 400, "{statistics:?}");
+    assert!(statistics.steps <= 15 && statistics.evaluations <= 400, "{statistics:?}");
 }

@@ -80,7 +80,8 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C:
 {
     const MEASURED: bool = true;
 
-    #[inline]
+    // Called twelve times a step: inlined, it would be most of what there is to compile.
+    #[inline(never)]
     fn rates(held: &Held<'_, P, C>, tau: f64, y: &Bundle<N, Q, C>) -> Bundle<N, Q, C> {
         let mut r = M::integrated_variational(held.frame.mode, &y.x, &y.dx, held.dp, &held.frame.env(tau));
         if M::INFO.uses_time && C > 0 {
@@ -94,7 +95,7 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C:
         if held.columns > 0 { forced::<M, N, P, Q, C>(held, tau, x, k) } else { [[0.0; N]; C] }
     }
 
-    #[inline]
+    #[inline(never)]
     fn integrands(
         held: &Held<'_, P, C>,
         tau: f64,

@@ -14,7 +14,7 @@ const NEWTON: f64 = 0.1;
 /// Changes of so many units in the last place cannot be told from rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Factor of the tolerance for the error estimate.
-const FACTOR: f64 = 20.0;
+const FACTOR: f64 = 3.0;
 /// The same where functionals may take rates.
 const FACTOR_WITH_RATES: f64 = 0.1;
 /// How far the polynomial of the step before predicts, in its own lengths.
