@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed unwrap fails the test
 
 use gaitc_compiler::diagnostic::{Code, render};
-use gaitc_compiler::front::{Parsed, parse_file, parse_text};
+use gaitc_compiler::front::{Library, Parsed, parse_file, parse_text, parse_with};
 use std::path::{Path, PathBuf};
 
 fn folder(relative: &str) -> PathBuf {
@@ -21,7 +21,7 @@ fn toml_files(folder: &Path) -> Vec<PathBuf> {
 /// Parsed under its bare file name, so that messages are the same on every machine.
 fn parse_here(path: &Path) -> Parsed {
     let text = std::fs::read_to_string(path).unwrap();
-    parse_text(Path::new(path.file_name().unwrap()), &text)
+    parse_with(Path::new(path.file_name().unwrap()), &text, Library::Folder(path.parent().unwrap()))
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod definitions;
 mod derivative;
 mod dynamics;
 mod expr;
+mod fixed;
 mod fold;
 mod lowering;
 mod mass;
@@ -47,7 +48,9 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     // What nothing needs is checked, but leaves no trace in the model.
     let lets = lowering.into_lets();
     let mut scratch = model.clone();
-    Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics).lower_remaining_lets(lets);
+    let mut lowering = Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics);
+    lowering.lower_remaining_lets(lets);
+    lowering.fixed(spec);
     // Where a name is misspelt, what it was meant to be only looks unused.
     if !diagnostics.iter().any(Diagnostic::is_error) {
         unused::check(spec, diagnostics);
