@@ -68,6 +68,8 @@ pub(crate) struct Parameter {
     pub(crate) value: Option<Text>,
     pub(crate) range: Option<Interval>,
     pub(crate) doc: String,
+    /// The value that its part gives it, where the user of the part has set another one.
+    pub(crate) replaced: Option<Text>,
 }
 
 #[derive(Clone, Debug)]

@@ -48,9 +48,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     // What nothing needs is checked, but leaves no trace in the model.
     let lets = lowering.into_lets();
     let mut scratch = model.clone();
-    let mut lowering = Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics);
-    lowering.lower_remaining_lets(lets);
-    lowering.fixed(spec);
+    Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics).lower_remaining_lets(lets);
     // Where a name is misspelt, what it was meant to be only looks unused.
     if !diagnostics.iter().any(Diagnostic::is_error) {
         unused::check(spec, diagnostics);

@@ -28,7 +28,10 @@ pub(super) fn bind(part: &mut Spec, item: &Use, diagnostics: &mut Vec<Diagnostic
     }
     for set in &item.set {
         if let Some(at) = parameter(part, &set.name, set.span, item, diagnostics) {
-            part.parameters[at].value.value = Some(set.value.clone());
+            let parameter = &mut part.parameters[at].value;
+            let replaced = parameter.value.replace(set.value.clone());
+            // Of several values, from parts of parts, the first one is the definition.
+            parameter.replaced = parameter.replaced.take().or(replaced);
         }
     }
     // What takes the place of a parameter belongs to the user, whose names are not renamed.
