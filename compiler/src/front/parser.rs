@@ -106,7 +106,8 @@ impl<'a> Parser<'a> {
     /// Reads the unit to the end of the text that stands behind `number`, if that is constant and there is one.
     fn unit_behind(&mut self, number: &mut Expr) -> Result<Option<Box<str>>, Box<Diagnostic>> {
         let token = self.peek();
-        let starts_unit = matches!(token.kind, TokenKind::Name | TokenKind::Bad(_));
+        let is_one = self.slice(token.range.clone()) == "1"; // as in `2 1/m`
+        let starts_unit = is_one || matches!(token.kind, TokenKind::Name | TokenKind::Bad(_));
         let constant = |name: &NameUse| name.span.start < number.span.start || name.name == "pi";
         if !starts_unit || !self.names.iter().all(constant) {
             return Ok(None);
