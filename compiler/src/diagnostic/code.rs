@@ -70,8 +70,11 @@ codes! {
     ConstraintForm "E0408" "not a constraint";
     ProblemForm "E0409" "a problem needs exactly one objective and something to vary";
     Mass "E0410" "a mass matrix that is singular everywhere";
+    NoReturn "E0411" "no run comes back to the section";
     Unused "W0001" "something is defined and never used";
     ZeroDerivative "W0002" "a derivative that is always zero";
+    Unreachable "W0003" "a mode that no run reaches";
+    NoInvolution "W0004" "a symmetry that is not its own inverse";
 }
 
 impl std::fmt::Display for Code {

@@ -141,6 +141,8 @@ impl Lowering<'_> {
             }
             given[i] = true;
             flow[i] = value.map_or(zero, |value| value.node);
+            let what = format!("the flow of `{}`", equation.name);
+            self.only_states_of((mode, has_state), flow[i], &equation.value, &what);
         }
         for i in (0..has_state.len()).filter(|&i| has_state[i] && !given[i]) {
             let name = self.state_name(i);
@@ -179,6 +181,9 @@ impl Lowering<'_> {
                 memory_reset,
                 also_zero: Vec::new(),
             });
+            if let Some(from) = from {
+                self.leaves_with(item, from);
+            }
         }
     }
 
