@@ -337,10 +337,12 @@ fn join(operator: Infix, left: Expr, right: Expr) -> Expr {
 /// The first characters of a long text.
 pub(crate) fn shortened(text: &str) -> String {
     const LIMIT: usize = 40;
+    // A name may hold what would break a line of a message.
+    let shown = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
     if text.chars().count() <= LIMIT {
-        text.to_owned()
+        text.chars().map(shown).collect()
     } else {
-        text.chars().take(LIMIT - 3).chain("...".chars()).collect()
+        text.chars().take(LIMIT - 3).map(shown).chain("...".chars()).collect()
     }
 }
 

@@ -247,15 +247,22 @@ impl Lowering<'_> {
         }
         let has_state = has_state.unwrap_or(&[]);
         for i in (0..has_state.len()).filter(|&i| has_state[i] && !given[i]) {
-            self.no_reset(item, &self.state_name(i));
+            self.no_reset(item, i);
         }
         (reset, memory)
     }
 
-    fn no_reset(&mut self, item: &Named<Transition>, name: &str) {
+    fn no_reset(&mut self, item: &Named<Transition>, state: usize) {
+        let name = self.state_name(state);
         let message = format!("transition `{}` has no reset for the state `{name}`", item.name);
         let error = Diagnostic::error(Code::MissingEquation, message).at(item.span, "");
-        let help = format!("add `{name} = \"{name}\"` to [transitions.{}.reset] to keep it", item.name);
+        let from = item.value.from.as_ref().map_or("", |from| from.value.as_str());
+        let source = self.model.modes.iter().find(|mode| mode.name == from);
+        let help = if source.is_some_and(|mode| mode.has_state.get(state) == Some(&false)) {
+            format!("add `{name} = \"...\"` to [transitions.{}.reset]: mode `{from}` does not have it", item.name)
+        } else {
+            format!("add `{name} = \"{name}\"` to [transitions.{}.reset] to keep it", item.name)
+        };
         self.diagnostics.push(error.help(help));
     }
 
