@@ -282,7 +282,7 @@ impl Lowering<'_> {
     }
 
     /// Whether a node is a whole number whenever the memory is.
-    fn is_whole(&self, root: NodeId) -> bool {
+    pub(super) fn is_whole(&self, root: NodeId) -> bool {
         let graph = &self.model.graph;
         let mut whole = true;
         graph.visit(&[root], |_, node| {
