@@ -3,7 +3,7 @@
 
 use crate::models::MODELS;
 use gaitc_compiler::diagnostic;
-use gaitc_compiler::front::{self, flags::suggest};
+use gaitc_compiler::front::{self, Library, flags::suggest};
 use gaitc_compiler::ir;
 use gaitc_compiler::ir::canonical::fingerprint;
 use gaitc_runtime::registry::{Compiled, Entry};
@@ -79,7 +79,7 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
 /// When the embedded text does not match the compiled equations (a generated file was not rebuilt).
 pub fn embedded(entry: &Entry) -> Result<Loaded, LoadError> {
     let path = PathBuf::from(format!("specs/{}.toml", entry.compiled.info().name));
-    let spec = accept(front::parse_text(&path, entry.spec))?;
+    let spec = accept(front::parse_with(&path, entry.spec, Library::Texts(entry.parts)))?;
     if fingerprint(&spec) != entry.compiled.info().fingerprint {
         return Err(LoadError::Stale(path));
     }

@@ -241,3 +241,31 @@ fn folders_of_parts_are_no_models() {
     assert_eq!(krate.config().compile().unwrap().derived, ["fall"]);
     assert!(Path::new(&krate.path("generated/mod.rs")).is_file());
 }
+
+/// A part counts where a spec uses it: its equations in the stamp, its text among those that are embedded.
+#[test]
+fn parts_are_compiled_in_and_embedded() {
+    let krate = Crate::new(true);
+    fs::create_dir(krate.path("specs/parts")).unwrap();
+    let part = "spec = 1\n[parameters]\nc = \"0.1 1/s\"\n[let]\ndrag = \"c*v\"\n";
+    krate.write("specs/parts/drag.toml", part);
+    krate.write(
+        "specs/fall.toml",
+        &SPEC.replace("[parameters]", "use = [\"parts/drag.toml\"]\n[parameters]").replace("\"-g\"", "\"-g - drag\""),
+    );
+    assert_eq!(krate.config().compile().unwrap().derived, ["fall"]);
+    let list = krate.read("generated/mod.rs");
+    assert!(list.contains(r#"("parts/drag.toml", include_str!("../specs/parts/drag.toml"))"#), "{list}");
+    // Values of a part are data, its equations are not.
+    krate.write("specs/parts/drag.toml", &part.replace("0.1", "0.2"));
+    assert!(krate.without_python().unwrap().derived.is_empty());
+    krate.write("specs/parts/drag.toml", &part.replace("c*v", "2*c*v"));
+    assert!(krate.config().check().unwrap()[0].reason.contains("stamp"));
+    assert_eq!(krate.config().compile().unwrap().derived, ["fall"]);
+    krate.write("specs/parts/drag.toml", "spec = 1\n[let]\ndrag = \"nothing\"\n");
+    let error = krate.config().compile().unwrap_err().to_string();
+    assert!(error.contains("parts/drag.toml:3:9") && error.contains("`nothing`"), "{error}");
+    fs::remove_file(krate.path("specs/parts/drag.toml")).unwrap();
+    let error = krate.config().compile().unwrap_err().to_string();
+    assert!(error.contains("error[E0010]") && error.contains("fall.toml:3:8"), "{error}");
+}

@@ -9,8 +9,8 @@ use gaitc_compiler::valid::Validated;
 
 /// The specs of the golden files.
 fn models() -> Vec<Validated> {
-    let climber = std::fs::read_to_string(test_file("golden/prescribed_length.toml")).unwrap();
-    [parse("prescribed_length", &climber), every_operation(), with_mass_matrix()].map(validated).into()
+    let golden = |name: &str| parse(name, &std::fs::read_to_string(test_file(&format!("golden/{name}.toml"))).unwrap());
+    [golden("prescribed_length"), golden("hopper"), every_operation(), with_mass_matrix()].map(validated).into()
 }
 
 /// Regenerates the golden files, writes those that differ, and still fails, so that somebody looks at the difference.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed unwrap fails the test
 
 use gaitc_compiler::diagnostic::{Code, render};
-use gaitc_compiler::front::{Parsed, parse_file, parse_text};
+use gaitc_compiler::front::{Library, Parsed, parse_file, parse_text, parse_with};
 use std::path::{Path, PathBuf};
 
 fn folder(relative: &str) -> PathBuf {
@@ -21,7 +21,7 @@ fn toml_files(folder: &Path) -> Vec<PathBuf> {
 /// Parsed under its bare file name, so that messages are the same on every machine.
 fn parse_here(path: &Path) -> Parsed {
     let text = std::fs::read_to_string(path).unwrap();
-    parse_text(Path::new(path.file_name().unwrap()), &text)
+    parse_with(Path::new(path.file_name().unwrap()), &text, Library::Folder(path.parent().unwrap()))
 }
 
 #[test]
@@ -50,6 +50,14 @@ fn the_language_reference_compiles() {
     let [sled] = &blocks("```toml spec\n")[..] else { panic!("one spec of its own") };
     let sled = model("sled.toml", sled);
     assert!(sled.modes[0].mass.is_some() && sled.transitions[0].also_zero.len() == 1);
+    let ([part], [using]) = (&blocks("```toml part\n")[..], &blocks("```toml using\n")[..]) else {
+        panic!("one of each")
+    };
+    let parts = [("parts/spring.toml", part.as_str())];
+    let bouncer = parse_with(Path::new("bouncer.toml"), using, Library::Texts(&parts));
+    assert_eq!(render(&bouncer.diagnostics, &bouncer.sources, false), "");
+    let names: Vec<String> = bouncer.model.unwrap().parameters.into_iter().map(|parameter| parameter.name).collect();
+    assert_eq!(names, ["m", "g", "k", "l0"]);
 }
 
 /// What is said of each file of `tests/wrong` stands beside it. `GAITC_BLESS=1` writes what is said now, and fails.

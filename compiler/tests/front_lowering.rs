@@ -4,6 +4,7 @@
 use gaitc_compiler::diagnostic::render;
 use gaitc_compiler::front::parse_text;
 use gaitc_compiler::ir::canonical::fingerprint;
+use gaitc_compiler::ir::eval::{Environment, value};
 use gaitc_compiler::ir::{FunctionalKind, Model, Node, NodeId, Sense, Symbol};
 use std::path::Path;
 
@@ -309,4 +310,40 @@ fn lowering_is_linear_in_shared_definitions() {
     }
     let model = model(&tables, "y200 + f60(y3)");
     assert!(model.graph.nodes().len() < 2000);
+}
+
+/// Two whole numbers may be equal, where `<` and `<=` differ: both at once (`when`) and by selectors (resets).
+#[test]
+fn comparisons_of_memory_are_exact() {
+    type Condition = (&'static str, fn(i64) -> bool);
+    let conditions: [Condition; 9] = [
+        ("n > 1", |n| n > 1),
+        ("n >= 1", |n| n >= 1),
+        ("n < 1", |n| n < 1),
+        ("n <= 1", |n| n <= 1),
+        ("1 > n", |n| 1 > n),
+        ("not n > 1", |n| n <= 1),
+        ("not (n >= 1 and n <= 1)", |n| n != 1),
+        ("n >= 1 and n <= 1", |n| n == 1),
+        ("2*n - n^2 >= 1 or 1 > 1", |n| n == 1),
+    ];
+    for (text, holds) in conditions {
+        let text = format!(
+            "spec = 1\nname = \"m\"\n[state]\nx = {{ unit = \"1\" }}\n[memory]\nn = {{ initial = 0 }}\n[modes.a.flow]\nx = \"1 [1/s]\"\n\
+             [transitions.b]\nfrom = \"a\"\nto = \"a\"\nguard = \"x\"\ndirection = \"either\"\nwhen = \"{text}\"\n\
+             reset = {{ x = \"if({text}, 1, 0)\", n = \"n + 1\" }}\n"
+        );
+        let parsed = parse_text(Path::new("m.toml"), &text);
+        assert_eq!(render(&parsed.diagnostics, &parsed.sources, false), "");
+        let model = parsed.model.unwrap();
+        for n in -2..4 {
+            let memory = [n as f64];
+            let at = Environment { memory: &memory, ..Environment::default() };
+            let branch: Vec<bool> = model.switches.iter().map(|s| value(&model.graph, s.expr, &at) >= 0.0).collect();
+            let transition = &model.transitions[0];
+            assert_eq!(value(&model.graph, transition.when.unwrap(), &at) >= 0.0, holds(n), "{text} at {n}");
+            let reset = value(&model.graph, transition.reset[0], &Environment { branch: &branch, ..at });
+            assert_eq!(reset, f64::from(u8::from(holds(n))), "{text} at {n}");
+        }
+    }
 }

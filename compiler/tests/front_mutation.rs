@@ -3,13 +3,18 @@
 
 use gaitc_compiler::diagnostic::render;
 use gaitc_compiler::front::flags::{parse_constraint, parse_quantity, parse_range};
-use gaitc_compiler::front::parse_text;
+use gaitc_compiler::front::{Library, parse_text, parse_with};
 use proptest::prelude::*;
 use std::path::Path;
 
 const SPEC: &str = include_str!("../../specs/prescribed_length.toml");
-/// The spec with most kinds of tables.
+/// The spec with most kinds of tables, and its parts.
 const LARGE: &str = include_str!("../../specs/self_exciting.toml");
+const PARTS: [(&str, &str); 3] = [
+    ("parts/constant_voltage.toml", include_str!("../../specs/parts/constant_voltage.toml")),
+    ("parts/dc_motor.toml", include_str!("../../specs/parts/dc_motor.toml")),
+    ("parts/crank_slider.toml", include_str!("../../specs/parts/crank_slider.toml")),
+];
 
 /// Pieces of the language, so that mutations get past the first token.
 const PIECES: &[&str] = &[
@@ -104,10 +109,16 @@ fn mutate(text: &mut Vec<u8>, mutation: &Mutation) {
 
 /// Parses and renders, and checks what must hold of every answer.
 fn check(text: &str) -> Result<(), TestCaseError> {
-    let parsed = parse_text(Path::new("prescribed_length.toml"), text);
+    check_with(text, &PARTS)
+}
+
+/// The same of a spec with its parts.
+fn check_with(text: &str, parts: &[(&str, &str)]) -> Result<(), TestCaseError> {
+    let parsed = parse_with(Path::new("prescribed_length.toml"), text, Library::Texts(parts));
     prop_assert_eq!(parsed.model.is_none(), parsed.diagnostics.iter().any(|d| d.is_error()));
     for label in parsed.diagnostics.iter().flat_map(|diagnostic| &diagnostic.labels) {
         let span = label.span;
+        let text = parsed.sources.text(span.file);
         prop_assert!(span.start <= span.end && span.end <= text.len(), "{:?} of {}", span, text.len());
         prop_assert!(text.is_char_boundary(span.start) && text.is_char_boundary(span.end), "{:?}", span);
     }
@@ -132,6 +143,16 @@ proptest! {
         let mut text = LARGE.as_bytes().to_vec();
         mutations.iter().for_each(|mutation| mutate(&mut text, mutation));
         check(&String::from_utf8_lossy(&text))?;
+    }
+
+    #[test]
+    fn mutated_parts_never_panic(mutations in prop::collection::vec(mutation(), 1..6), which in 0..PARTS.len()) {
+        let mut text = PARTS[which].1.as_bytes().to_vec();
+        mutations.iter().for_each(|mutation| mutate(&mut text, mutation));
+        let text = String::from_utf8_lossy(&text);
+        let mut parts = PARTS;
+        parts[which].1 = &text;
+        check_with(LARGE, &parts)?;
     }
 
     #[test]

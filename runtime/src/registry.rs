@@ -15,4 +15,6 @@ pub struct Entry {
     pub compiled: &'static dyn Compiled,
     /// The spec's text at build time: parameter values, problems and doc strings for when no file is found at run time.
     pub spec: &'static str,
+    /// The parts that the spec uses: the name by which it finds each, and its text at build time.
+    pub parts: &'static [(&'static str, &'static str)],
 }

@@ -222,7 +222,12 @@ impl Config {
     fn registry(&self, folders: &Folders, folder: &Path, specs: &[Spec]) -> Result<String, BuildError> {
         let mounted: Result<Vec<Mounted>, BuildError> = specs
             .iter()
-            .map(|spec| Ok(Mounted { name: spec.name.clone(), spec: folders.spec_seen_from(folder, &spec.path)? }))
+            .map(|spec| {
+                let part = |(name, path): &(String, PathBuf)| Ok((name.clone(), folders.spec_seen_from(folder, path)?));
+                let parts: Result<Vec<_>, BuildError> = spec.parts.iter().map(part).collect();
+                let path = folders.spec_seen_from(folder, &spec.path)?;
+                Ok(Mounted { name: spec.name.clone(), spec: path, parts: parts? })
+            })
             .collect();
         let text = registry(&mounted?, &self.runtime_path)
             .map_err(|source| BuildError::Emit { model: "mod".to_owned(), source })?;
@@ -309,7 +314,7 @@ fn mount(folders: &Folders, report: &mut Report) -> Result<(), BuildError> {
 #[expect(clippy::print_stdout, reason = "cargo reads a build script's standard output")]
 fn tell_cargo(folders: &Folders) {
     println!("cargo:rerun-if-env-changed={VARIABLE}");
-    // Of a folder cargo watches all that is in it, new files and removed ones too.
+    // Of a folder cargo watches all that is in it: parts, which lie below it, new files and removed ones too.
     println!("cargo:rerun-if-changed={}", folders.specs.display());
     if folders.tree.is_dir() {
         println!("cargo:rerun-if-changed={}", folders.tree.display());

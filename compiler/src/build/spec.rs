@@ -12,6 +12,8 @@ pub(super) struct Spec {
     /// The model's name, which is the file's.
     pub(super) name: String,
     pub(super) path: PathBuf,
+    /// Its parts: the name by which the spec finds each, and its file.
+    pub(super) parts: Vec<(String, PathBuf)>,
     pub(super) model: Validated,
     pub(super) fingerprint: String,
     /// Warnings of the front end, rendered; empty when there are none.
@@ -50,6 +52,8 @@ fn read(path: &Path, runtime_path: &str) -> Result<Result<Spec, String>, BuildEr
     let Some(model) = parsed.model else {
         return Ok(Err(warnings));
     };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let parts = parsed.parts.into_iter().map(|name| (name.clone(), folder.join(name))).collect();
     let wrong = |messages: &[String]| messages.iter().map(|m| format!("error: {}: {m}\n", path.display())).collect();
     if path.file_stem().is_none_or(|stem| stem != model.name.as_str()) {
         let hint = format!("the model is called `{0}`; call the file `{0}.toml`, or the model as the file", model.name);
@@ -62,6 +66,7 @@ fn read(path: &Path, runtime_path: &str) -> Result<Result<Spec, String>, BuildEr
             Ok(Spec {
                 name: model.model().name.clone(),
                 path: path.to_path_buf(),
+                parts,
                 warnings,
                 source_hash: stamp::source_hash(&model, &fingerprint, runtime_path),
                 fingerprint,

@@ -31,9 +31,12 @@ codes! {
     MissingKey "E0004" "a key or table is missing";
     WrongType "E0005" "a value has the wrong type";
     BadValue "E0006" "a value is not one of those that the key takes";
-    Unsupported "E0007" "not supported yet";
     NameMismatch "E0008" "the model's name and the file's name differ";
     TooLarge "E0009" "a table has too many entries";
+    PartFile "E0010" "a part cannot be found or read";
+    PartTable "E0011" "a part has what only a spec can have";
+    PartCycle "E0012" "parts that use each other";
+    PartUse "E0013" "a part does not have what its user changes";
     Syntax "E0101" "an expression cannot be read";
     Number "E0102" "a number cannot be read";
     TooComplex "E0103" "an expression is too long or nested too deeply";
@@ -67,8 +70,11 @@ codes! {
     ConstraintForm "E0408" "not a constraint";
     ProblemForm "E0409" "a problem needs exactly one objective and something to vary";
     Mass "E0410" "a mass matrix that is singular everywhere";
+    NoReturn "E0411" "no run comes back to the section";
     Unused "W0001" "something is defined and never used";
     ZeroDerivative "W0002" "a derivative that is always zero";
+    Unreachable "W0003" "a mode that no run reaches";
+    NoInvolution "W0004" "a symmetry that is not its own inverse";
 }
 
 impl std::fmt::Display for Code {

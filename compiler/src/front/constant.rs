@@ -23,7 +23,8 @@ pub(crate) fn evaluate(graph: &Graph, root: NodeId) -> Option<f64> {
     values.get(root.0 as usize).copied().flatten()
 }
 
-fn unary(op: Unary, a: f64) -> f64 {
+/// The value of a function of one argument.
+pub(crate) fn unary(op: Unary, a: f64) -> f64 {
     match op {
         Unary::Neg => -a,
         Unary::Sin => a.sin(),

@@ -1,7 +1,7 @@
 //! The front end: the text of a spec to the intermediate representation, or to diagnostics.
 //!
 //! The stages, each in its folder or file: TOML with places (`document`), tables and keys checked and expressions
-//! parsed (`read`, giving `spec`), names resolved, dimensions checked and expressions lowered (`lower`). All
+//! parsed (`read`, giving `spec`), parts taken in (`parts`), names resolved, dimensions checked and expressions lowered (`lower`). All
 //! problems of a file are reported in one go; what depends on something broken is silent.
 
 mod constant;
@@ -12,6 +12,7 @@ mod lexer;
 mod lower;
 mod names;
 mod parser;
+mod parts;
 mod quantity;
 mod read;
 mod spec;
@@ -24,6 +25,8 @@ use crate::ir::Model;
 use crate::source::{FileId, SourceMap, Span};
 pub use format::{format_number, format_quantity, format_si, in_unit};
 pub use names::suggest;
+pub use parts::Library;
+use parts::Loader;
 use std::path::Path;
 
 /// Largest spec in bytes.
@@ -32,15 +35,17 @@ const SIZE_LIMIT: u64 = 4 << 20;
 /// What became of a spec.
 #[derive(Clone, Debug)]
 pub struct Parsed {
-    /// The text, for rendering diagnostics.
+    /// The text and those of its parts, for rendering diagnostics.
     pub sources: SourceMap,
     /// The model; `Some` if and only if there is no error.
     pub model: Option<Model>,
-    /// Errors and warnings in the order of the text.
+    /// Errors and warnings in the order of the text, then of its parts.
     pub diagnostics: Vec<Diagnostic>,
+    /// The parts that were read, as paths seen from the folder of the spec, with `/`.
+    pub parts: Vec<String>,
 }
 
-/// Reads a spec from a file.
+/// Reads a spec from a file, and its parts from the file's folder.
 ///
 /// # Errors
 /// When it is no regular file, or cannot be opened or read. A file that is too large or not UTF-8 gives a diagnostic.
@@ -56,7 +61,7 @@ pub fn parse_file(path: &Path) -> std::io::Result<Parsed> {
     }
     let bytes = std::fs::read(path)?;
     Ok(match std::str::from_utf8(&bytes) {
-        Ok(text) => parse_text(path, text),
+        Ok(text) => parse_with(path, text, Library::Folder(path.parent().unwrap_or(Path::new("")))),
         Err(error) => {
             let valid = String::from_utf8_lossy(bytes.get(..error.valid_up_to()).unwrap_or(&[]));
             unreadable(path, &valid, valid.len(), "the file is not UTF-8 from here on")
@@ -64,8 +69,15 @@ pub fn parse_file(path: &Path) -> std::io::Result<Parsed> {
     })
 }
 
-/// Reads a spec from its text; `path` is how messages call it, and its stem is the name that the model must have.
+/// Reads a spec that uses no parts from its text; `path` is how messages call it, and its stem is the name that the
+/// model must have.
 pub fn parse_text(path: &Path, text: &str) -> Parsed {
+    parse_with(path, text, Library::Texts(&[]))
+}
+
+/// Reads a spec from its text, and its parts from a library; `path` is how messages call it, and its stem is the name
+/// that the model must have.
+pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
     if text.len() as u64 > SIZE_LIMIT {
         let message = format!("this text has {} bytes; a spec has at most {SIZE_LIMIT}", text.len());
         return unreadable(path, "", 0, &message);
@@ -76,23 +88,24 @@ pub fn parse_text(path: &Path, text: &str) -> Parsed {
     let document = document::parse(file, text, &mut diagnostics);
     let complete = diagnostics.is_empty();
     let start = Span { file, start: 0, end: 0 };
-    let spec = read::read(&document, start, complete, &mut diagnostics);
+    let mut spec = read::read(&document, start, complete, &mut diagnostics);
+    let loaded = Loader::new(library, path, &mut sources, &mut diagnostics).load(&mut spec, start);
     let mut model = None;
-    // In a file with broken TOML definitions may be lost: what would be said of names is unreliable.
-    if complete && !diagnostics.iter().any(|diagnostic| diagnostic.code == Code::TooLarge) {
+    // Where TOML is broken or a part is missing definitions may be lost: what would be said of names is unreliable.
+    if complete && loaded.whole && !diagnostics.iter().any(|diagnostic| diagnostic.code == Code::TooLarge) {
         check_file_name(&spec, path, &mut diagnostics);
         model = Some(lower::lower(&spec, &sources, &mut diagnostics));
     }
     let model = model.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
     let diagnostics = sorted(diagnostics);
-    Parsed { sources, model, diagnostics }
+    Parsed { sources, model, diagnostics, parts: loaded.names }
 }
 
 fn unreadable(path: &Path, text: &str, at: usize, message: &str) -> Parsed {
     let mut sources = SourceMap::default();
     let file: FileId = sources.add(path, text);
     let diagnostic = Diagnostic::error(Code::File, message).at(Span { file, start: at, end: at }, "");
-    Parsed { sources, model: None, diagnostics: vec![diagnostic] }
+    Parsed { sources, model: None, diagnostics: vec![diagnostic], parts: Vec::new() }
 }
 
 fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnostic>) {
@@ -106,12 +119,12 @@ fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnos
     }
 }
 
-/// Most diagnostics of one file; beyond that errors only, and no more than this.
+/// Most diagnostics of one spec; beyond that errors only, and no more than this.
 const DIAGNOSTIC_LIMIT: usize = 1000;
 
-/// In the order of the text, each problem of each place once.
+/// In the order of the texts, each problem of each place once.
 fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    diagnostics.sort_by_key(|diagnostic| diagnostic.primary().map(|span| (span.start, span.end)));
+    diagnostics.sort_by_key(|diagnostic| diagnostic.primary());
     let mut seen = std::collections::HashSet::new();
     diagnostics.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.primary(), diagnostic.message.clone())));
     if diagnostics.len() > DIAGNOSTIC_LIMIT && diagnostics.iter().any(Diagnostic::is_error) {

@@ -33,38 +33,27 @@ pub(crate) fn parse_value(text: &Text) -> Result<(Expression, usize), Box<Diagno
     Ok((Expression { root, names: parser.names, unit: None }, rest))
 }
 
+/// Reads an expression that may be a quantity where it is constant, as in `1250 rad/s`.
+pub(crate) fn parse_expression_or_quantity(text: &Text) -> Result<Expression, Box<Diagnostic>> {
+    let mut parser = Parser::new(text)?;
+    let mut root = parser.expression(0)?;
+    let unit = parser.unit_behind(&mut root)?;
+    parser.end()?;
+    Ok(Expression { root, names: parser.names, unit })
+}
+
 /// Reads a constraint: an expression whose right side, where it is constant, may be a quantity, as in
 /// `peak_force <= 150 N`.
 pub(crate) fn parse_constraint(text: &Text) -> Result<Expression, Box<Diagnostic>> {
     let mut parser = Parser::new(text)?;
     let mut root = parser.expression(0)?;
-    let token = parser.peek();
-    let starts_unit = matches!(token.kind, TokenKind::Name | TokenKind::Bad(_));
-    if let ExprKind::Compare(_, _, right) = &mut root.kind
-        && starts_unit
-        && parser.names.iter().all(|name| name.span.start < right.span.start || name.name == "pi")
-    {
-        let offset = token.range.start;
-        let unit = parser.slice(offset..text.value.len()).trim_end();
-        let unit_span = text.at(offset..offset + unit.len());
-        let written = unit.into();
-        let unit = parse_unit(unit).map_err(|error| unit_diagnostic(error, text, offset))?;
-        let span = right.span.to(unit_span);
-        match &mut right.kind {
-            ExprKind::Number(_, given @ None) => *given = Some(unit),
-            _ => {
-                let number = std::mem::replace(&mut right.kind, ExprKind::Number(0.0, None));
-                let number = Box::new(Expr { kind: number, span: right.span });
-                let one = Box::new(Expr { kind: ExprKind::Number(1.0, Some(unit)), span: unit_span });
-                right.kind = ExprKind::Arithmetic(Arithmetic::Mul, number, one);
-            }
-        }
-        right.span = span;
-        root.span = root.span.to(span);
-        return Ok(Expression { root, names: parser.names, unit: Some(written) });
+    let mut unit = None;
+    if let ExprKind::Compare(_, _, right) = &mut root.kind {
+        unit = parser.unit_behind(right)?;
+        root.span = root.span.to(right.span);
     }
     parser.end()?;
-    Ok(Expression { root, names: parser.names, unit: None })
+    Ok(Expression { root, names: parser.names, unit })
 }
 
 /// A unit's complaint as a diagnostic; `offset` is where the unit starts in `text`.
@@ -112,6 +101,34 @@ impl<'a> Parser<'a> {
         }
         let tokens = tokens(&text.value);
         Ok(Self { text, tokens, at: 0, depth: 0, functionals: 0, names: Vec::new() })
+    }
+
+    /// Reads the unit to the end of the text that stands behind `number`, if that is constant and there is one.
+    fn unit_behind(&mut self, number: &mut Expr) -> Result<Option<Box<str>>, Box<Diagnostic>> {
+        let token = self.peek();
+        let is_one = self.slice(token.range.clone()) == "1"; // as in `2 1/m`
+        let starts_unit = is_one || matches!(token.kind, TokenKind::Name | TokenKind::Bad(_));
+        let constant = |name: &NameUse| name.span.start < number.span.start || name.name == "pi";
+        if !starts_unit || !self.names.iter().all(constant) {
+            return Ok(None);
+        }
+        let offset = token.range.start;
+        let written = self.slice(offset..self.text.value.len()).trim_end();
+        let unit_span = self.text.at(offset..offset + written.len());
+        let unit = parse_unit(written).map_err(|error| unit_diagnostic(error, self.text, offset))?;
+        let span = number.span.to(unit_span);
+        match &mut number.kind {
+            ExprKind::Number(_, given @ None) => *given = Some(unit),
+            _ => {
+                let inner = std::mem::replace(&mut number.kind, ExprKind::Number(0.0, None));
+                let inner = Box::new(Expr { kind: inner, span: number.span });
+                let one = Box::new(Expr { kind: ExprKind::Number(1.0, Some(unit)), span: unit_span });
+                number.kind = ExprKind::Arithmetic(Arithmetic::Mul, inner, one);
+            }
+        }
+        number.span = span;
+        self.at = self.tokens.len();
+        Ok(Some(written.into()))
     }
 
     fn peek(&self) -> Token {
@@ -320,10 +337,12 @@ fn join(operator: Infix, left: Expr, right: Expr) -> Expr {
 /// The first characters of a long text.
 pub(crate) fn shortened(text: &str) -> String {
     const LIMIT: usize = 40;
+    // A name may hold what would break a line of a message.
+    let shown = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
     if text.chars().count() <= LIMIT {
-        text.to_owned()
+        text.chars().map(shown).collect()
     } else {
-        text.chars().take(LIMIT - 3).chain("...".chars()).collect()
+        text.chars().take(LIMIT - 3).map(shown).chain("...".chars()).collect()
     }
 }
 

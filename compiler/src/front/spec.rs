@@ -11,6 +11,8 @@ pub(crate) struct Spec {
     pub(crate) name: Option<Text>,
     pub(crate) title: String,
     pub(crate) source: String,
+    /// Parts, in the order in which they are pulled in.
+    pub(crate) uses: Vec<Use>,
     pub(crate) parameters: Vec<Named<Parameter>>,
     pub(crate) states: Vec<Named<State>>,
     pub(crate) memory: Vec<Named<Memory>>,
@@ -21,6 +23,21 @@ pub(crate) struct Spec {
     pub(crate) section: Option<Section>,
     pub(crate) measures: Vec<Named<Measure>>,
     pub(crate) problems: Vec<Named<Problem>>,
+    /// Parameters of parts whose place a let has taken, each by the name of that let.
+    pub(crate) fixed: Vec<Named<Parameter>>,
+}
+
+/// A part that is pulled in, and what its user says of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Use {
+    /// Its file, seen from the folder of the spec.
+    pub(crate) part: Text,
+    /// New names, by the names that the part uses.
+    pub(crate) rename: Vec<Named<Text>>,
+    /// Values of its parameters.
+    pub(crate) set: Vec<Named<Text>>,
+    /// Expressions that take the place of its parameters.
+    pub(crate) fix: Vec<Named<Equation>>,
 }
 
 /// Something with a name and the place of that name.
@@ -51,6 +68,8 @@ pub(crate) struct Parameter {
     pub(crate) value: Option<Text>,
     pub(crate) range: Option<Interval>,
     pub(crate) doc: String,
+    /// The value that its part gives it, where the user of the part has set another one.
+    pub(crate) replaced: Option<Text>,
 }
 
 #[derive(Clone, Debug)]

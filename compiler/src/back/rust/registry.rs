@@ -10,6 +10,8 @@ pub struct Mounted {
     pub name: String,
     /// Path of its spec for `include_str!`, seen from `mod.rs`, or absolute.
     pub spec: String,
+    /// Its parts: the name by which the spec finds each, and its path for `include_str!`.
+    pub parts: Vec<(String, String)>,
 }
 
 /// The text of `mod.rs`, without its header.
@@ -28,6 +30,7 @@ pub fn registry(models: &[Mounted], runtime: &str) -> Result<String, EmitError> 
     let entries = models.iter().map(|model| {
         let (module, name, spec) =
             (format_ident!("{}", model.name), format_ident!("{}", names::camel(&model.name)), &model.spec);
+        let parts = model.parts.iter().map(|(name, path)| quote!((#name, include_str!(#path))));
         quote! {
             #runtime::registry::Entry {
                 compiled: &#runtime::hybrid::Hybrid::<
@@ -37,6 +40,7 @@ pub fn registry(models: &[Mounted], runtime: &str) -> Result<String, EmitError> 
                     { #module::INTEGRALS },
                 >(::core::marker::PhantomData),
                 spec: include_str!(#spec),
+                parts: &[#(#parts),*],
             }
         }
     });

@@ -99,7 +99,19 @@ impl Lowering<'_> {
         let dimension = self.same(a, b, &format!("`{}`", comparison.symbol()), context)?;
         let (large, small) = if comparison.is_less() { (b, a) } else { (a, b) };
         let node = self.binary(Binary::Sub, large.value.node, small.value.node);
+        let node = self.beside_zero(node, comparison);
         Some(Value { node, dimension, uses: a.value.uses.and(b.value.uses) })
+    }
+
+    /// A difference of whole numbers may well be 0, where `<` and `<=` differ: it is moved by one half to the side where it
+    /// belongs.
+    fn beside_zero(&mut self, difference: NodeId, comparison: Comparison) -> NodeId {
+        if !self.is_whole(difference) {
+            return difference;
+        }
+        let strict = matches!(comparison, Comparison::Less | Comparison::Greater);
+        let half = self.model.graph.constant(0.5);
+        self.binary(if strict { Binary::Sub } else { Binary::Add }, difference, half)
     }
 
     /// A condition as one number that is `>= 0` where it holds: `and` is the smaller, `or` the larger one.

@@ -7,8 +7,10 @@ use super::expr::Operand;
 use super::lowering::{Context, Frame, Lowering};
 use super::scope::{Definition, Entity};
 use super::value::{Place, Uses, Value};
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::{Dimension, Exponent};
+use crate::front::constant::unary;
 use crate::front::names::{FUNCTIONALS, FUNCTIONS};
 use crate::front::syntax::Call;
 use crate::ir::{Binary, Functional, FunctionalKind, NodeId, Symbol, Unary};
@@ -82,6 +84,7 @@ impl Lowering<'_> {
             "abs" => return Some(self.abs(a.value, span, context)),
             "sign" => return Some(self.sign(a.value, span, context)),
             "sqrt" => {
+                self.real_of(Unary::Sqrt, a, span, context)?;
                 let node = self.model.graph.unary(Unary::Sqrt, a.value.node);
                 let half = Exponent { numerator: 1, denominator: 2 };
                 let dimension = match a.value.dimension {
@@ -110,8 +113,17 @@ impl Lowering<'_> {
             _ => return None,
         };
         self.dimensionless(a, &format!("the argument of `{name}`"), context)?;
+        self.real_of(op, a, span, context)?;
         let node = self.model.graph.unary(op, a.value.node);
         Some(Value { node, dimension: Some(Dimension::NONE), ..a.value })
+    }
+
+    /// Checks a function of a literal.
+    fn real_of(&mut self, op: Unary, a: Operand, span: Span, context: Context<'_>) -> Option<()> {
+        match self.model.graph.constant_value(a.value.node) {
+            Some(literal) => self.real(unary(op, literal), "this value", span, context),
+            None => Some(()),
+        }
     }
 
     fn functional_call(&mut self, call: &Call, context: Context<'_>) -> Option<Value> {

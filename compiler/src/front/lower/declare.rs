@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::front::names::{is_identifier, reserved};
 use crate::front::parser::{shortened, unit_diagnostic};
-use crate::front::quantity::{Quantities, Quantity};
+use crate::front::quantity::Quantities;
 use crate::front::spec::{Named, Parameter, Spec};
 use crate::front::text::Text;
 use crate::front::units::parse_unit;
@@ -133,20 +133,24 @@ fn broken_parameter() -> ir::Parameter {
 
 /// Value and range of a parameter; `None` when its dimension is not known.
 fn parameter(item: &Named<Parameter>, quantities: &mut Quantities<'_>) -> Option<ir::Parameter> {
-    let Parameter { value, range, doc } = &item.value;
+    let Parameter { value, range, doc, replaced } = &item.value;
     let value_span = value.as_ref().map_or(item.span, |value| value.span);
     let value = value.as_ref().and_then(|value| quantities.any(value));
-    // A bare 0 has the dimension of the bounds, if there are any.
     let bounds =
         range.as_ref().map(|range| [&range.lower, &range.upper].map(|bound| (quantities.any(bound), bound.span)));
+    let default = replaced.as_ref().map(|text| quantities.any(text));
     let value = value?;
-    let bound_unit = |(bound, _): &(Option<Quantity>, Span)| bound.as_ref().map(|b| (b.dimension, b.unit.clone()));
-    let from_bounds = bounds.iter().flatten().filter_map(bound_unit).find(|(dimension, _)| dimension.is_some());
-    let (dimension, unit) = match (value.dimension, from_bounds) {
-        (None, Some((Some(dimension), unit))) => (dimension, unit),
-        (dimension, _) => (dimension.unwrap_or(Dimension::NONE), value.unit.clone()),
-    };
+    let default = if let Some(default) = default { Some(default?) } else { None };
+    // A bare 0 has the dimension of the value in the part, or of the bounds, if there are any.
+    let others = default.iter().chain(bounds.iter().flatten().filter_map(|(bound, _)| bound.as_ref()));
+    let known = std::iter::once(&value).chain(others).find_map(|quantity| Some((quantity.dimension?, &quantity.unit)));
+    let (dimension, unit) =
+        known.map_or((Dimension::NONE, String::new()), |(dimension, unit)| (dimension, unit.clone()));
     let what = format!("`{}`", item.name);
+    if let Some(expected) = default.and_then(|default| default.dimension) {
+        quantities.check(&value, value_span, expected, &format!("the value of {what}"))?;
+    }
+    let interval_span = range.as_ref().map_or(item.span, |range| range.span);
     let range = range.as_ref().zip(bounds).and_then(|(range, [(lower, lower_span), (upper, upper_span)])| {
         let (lower, upper) = (lower?, upper?);
         let low = quantities.check(&lower, lower_span, dimension, &format!("the lower bound of {what}"));
@@ -158,7 +162,7 @@ fn parameter(item: &Named<Parameter>, quantities: &mut Quantities<'_>) -> Option
         let shown = |value| crate::front::format_quantity(value, &unit);
         let message = format!("the value of {what} lies outside its range");
         let label = format!("not within {} and {}", shown(lower), shown(upper));
-        let error = Diagnostic::error(Code::Range, message).at(value_span, label);
+        let error = Diagnostic::error(Code::Range, message).at(value_span, label).see(interval_span, "the range");
         quantities.diagnostics.push(error.help("change the value or widen the range"));
     }
     let (name, doc) = (item.name.clone(), doc.clone());

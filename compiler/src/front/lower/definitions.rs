@@ -6,7 +6,7 @@ use super::scope::{Entity, Scope};
 use super::value::{Place, Style, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::names::{FUNCTIONALS, FUNCTIONS, reserved, suggest};
-use crate::front::spec::{Equation, Function, Named, Spec};
+use crate::front::spec::{Equation, Function, Named, Parameter, Spec};
 use crate::front::syntax::NameUse;
 use crate::source::Span;
 use std::collections::{HashMap, HashSet};
@@ -19,13 +19,16 @@ pub(super) type Lets = HashMap<(usize, Style), Option<Value>>;
 pub(crate) struct Definitions<'a> {
     pub(super) lets: &'a [Named<Equation>],
     pub(super) functions: &'a [Named<Function>],
+    /// Parameters of parts whose place a let has taken.
+    pub(super) fixed: &'a [Named<Parameter>],
     order: Order,
 }
 
 impl<'a> Definitions<'a> {
     /// Orders the definitions; reports those that need each other.
     pub(crate) fn new(spec: &'a Spec, scope: &Scope, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut definitions = Self { lets: &spec.lets, functions: &spec.functions, order: Order::default() };
+        let (lets, functions, fixed) = (&spec.lets, &spec.functions, &spec.fixed);
+        let mut definitions = Self { lets, functions, fixed, order: Order::default() };
         let count = definitions.lets.len() + definitions.functions.len();
         let uses: Vec<Vec<usize>> = (0..count)
             .map(|item| definitions.names(item).filter_map(|name| definitions.item(scope, &name.name)).collect())
@@ -108,6 +111,7 @@ impl Lowering<'_> {
             let expression = definitions.lets.get(item).and_then(|item| item.value.expression.as_ref());
             let expression = expression.filter(|_| !cyclic);
             let value = expression.and_then(|e| self.expr(&e.root, Context::of(Place::Let(style))));
+            let value = value.filter(|&value| self.fits(item, value));
             self.lets.insert((item, style), value);
         }
     }

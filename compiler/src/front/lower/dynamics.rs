@@ -141,6 +141,8 @@ impl Lowering<'_> {
             }
             given[i] = true;
             flow[i] = value.map_or(zero, |value| value.node);
+            let what = format!("the flow of `{}`", equation.name);
+            self.only_states_of((mode, has_state), flow[i], &equation.value, &what);
         }
         for i in (0..has_state.len()).filter(|&i| has_state[i] && !given[i]) {
             let name = self.state_name(i);
@@ -179,6 +181,9 @@ impl Lowering<'_> {
                 memory_reset,
                 also_zero: Vec::new(),
             });
+            if let Some(from) = from {
+                self.leaves_with(item, from);
+            }
         }
     }
 
@@ -242,15 +247,22 @@ impl Lowering<'_> {
         }
         let has_state = has_state.unwrap_or(&[]);
         for i in (0..has_state.len()).filter(|&i| has_state[i] && !given[i]) {
-            self.no_reset(item, &self.state_name(i));
+            self.no_reset(item, i);
         }
         (reset, memory)
     }
 
-    fn no_reset(&mut self, item: &Named<Transition>, name: &str) {
+    fn no_reset(&mut self, item: &Named<Transition>, state: usize) {
+        let name = self.state_name(state);
         let message = format!("transition `{}` has no reset for the state `{name}`", item.name);
         let error = Diagnostic::error(Code::MissingEquation, message).at(item.span, "");
-        let help = format!("add `{name} = \"{name}\"` to [transitions.{}.reset] to keep it", item.name);
+        let from = item.value.from.as_ref().map_or("", |from| from.value.as_str());
+        let source = self.model.modes.iter().find(|mode| mode.name == from);
+        let help = if source.is_some_and(|mode| mode.has_state.get(state) == Some(&false)) {
+            format!("add `{name} = \"...\"` to [transitions.{}.reset]: mode `{from}` does not have it", item.name)
+        } else {
+            format!("add `{name} = \"{name}\"` to [transitions.{}.reset] to keep it", item.name)
+        };
         self.diagnostics.push(error.help(help));
     }
 
@@ -270,7 +282,7 @@ impl Lowering<'_> {
     }
 
     /// Whether a node is a whole number whenever the memory is.
-    fn is_whole(&self, root: NodeId) -> bool {
+    pub(super) fn is_whole(&self, root: NodeId) -> bool {
         let graph = &self.model.graph;
         let mut whole = true;
         graph.visit(&[root], |_, node| {

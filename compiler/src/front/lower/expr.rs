@@ -68,6 +68,20 @@ impl Lowering<'_> {
         None
     }
 
+    /// Reports a function of literals that has no real value.
+    pub(super) fn real(&mut self, value: f64, what: &str, span: Span, context: Context<'_>) -> Option<()> {
+        if value.is_finite() {
+            return Some(());
+        }
+        let error = Diagnostic::error(Code::NotFinite, format!("{what} is not a real number")).at(span, "");
+        self.report(
+            error
+                .help("even roots and logarithms take what is not negative, `asin` and `acos` what is within -1 and 1"),
+            context,
+        );
+        None
+    }
+
     pub(super) fn negated(&mut self, value: Value) -> Value {
         Value { node: fold::neg(&mut self.model.graph, value.node), ..value }
     }
@@ -244,8 +258,13 @@ impl Lowering<'_> {
             Arithmetic::Pow => (Binary::Pow, self.power(a, b, whole, context)?),
         };
         let node = fold::binary(&mut self.model.graph, binary, a.value.node, b.value.node);
-        if let Some(value) = self.model.graph.constant_value(node) {
+        let constant = |id| self.model.graph.constant_value(id);
+        if let Some(value) = constant(node) {
             self.finite(value, whole, context)?;
+        } else if let (Arithmetic::Pow, Some(base), Some(exponent)) =
+            (op, constant(a.value.node), constant(b.value.node))
+        {
+            self.real(base.powf(exponent), "this power", whole, context)?;
         }
         Some(Value { node, dimension, uses: a.value.uses.and(b.value.uses) })
     }

@@ -73,6 +73,7 @@ impl Lowering<'_> {
         row: &mut RowDimension,
     ) -> Option<NodeId> {
         let value = self.equation(equation, Place::Flow)?;
+        self.only_states_of((&mode.name, has_state), value.node, equation, "this entry");
         let column = column?;
         if has_state.get(column) == Some(&false) {
             let name = self.state_name(column);

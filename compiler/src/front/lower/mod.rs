@@ -1,5 +1,6 @@
 //! Spec to model: names resolved, dimensions checked, expressions lowered into one graph.
 
+mod absent;
 mod also_zero;
 mod branch;
 mod call;
@@ -8,12 +9,15 @@ mod definitions;
 mod derivative;
 mod dynamics;
 mod expr;
+mod fixed;
 mod fold;
+mod involution;
 mod lowering;
 mod mass;
 mod measures;
 mod order;
 mod problems;
+mod reach;
 mod scope;
 mod section;
 mod unused;
@@ -48,8 +52,10 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     let lets = lowering.into_lets();
     let mut scratch = model.clone();
     Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics).lower_remaining_lets(lets);
-    // Where a name is misspelt, what it was meant to be only looks unused.
+    // Where a name is misspelt, what it was meant to be only looks unused, and what follows from equations is not known.
     if !diagnostics.iter().any(Diagnostic::is_error) {
+        reach::check(spec, &model, diagnostics);
+        involution::check(spec, &model, diagnostics);
         unused::check(spec, diagnostics);
     }
     model

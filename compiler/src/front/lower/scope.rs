@@ -74,10 +74,12 @@ impl Scope {
         self.definitions.get(name).copied()
     }
 
-    /// Defines a name; a name that is there already stays what it is and is returned.
+    /// Defines a name; a name that is there already stays what it is and is returned, its dimension forgotten: which of
+    /// the two was meant is not known.
     pub(crate) fn insert(&mut self, name: &str, definition: Definition) -> Option<Definition> {
-        if let Some(first) = self.get(name) {
-            return Some(first);
+        if let Some(first) = self.definitions.get_mut(name) {
+            first.dimension = first.dimension.filter(|_| first.dimension == definition.dimension);
+            return Some(*first);
         }
         self.definitions.insert(name.to_owned(), definition);
         self.order.push(name.to_owned());

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, Table, Value, ValueKind};
 use crate::front::names::suggest;
-use crate::front::parser::{parse_constraint, parse_expression, shortened};
+use crate::front::parser::{parse_constraint, parse_expression, parse_expression_or_quantity, shortened};
 use crate::front::spec::{Equation, Interval, Named};
 use crate::front::syntax::Expression;
 use crate::front::text::Text;
@@ -152,6 +152,11 @@ pub(super) fn equation_or_broken(entry: &Entry, sink: &mut Sink<'_>) -> Equation
 /// The expression of a text.
 pub(super) fn expression(text: Text, sink: &mut Sink<'_>) -> Equation {
     kept(parse_expression(&text), text, sink)
+}
+
+/// The expression of a text that may be a quantity.
+pub(super) fn expression_or_quantity(text: Text, sink: &mut Sink<'_>) -> Equation {
+    kept(parse_expression_or_quantity(&text), text, sink)
 }
 
 /// A constraint.

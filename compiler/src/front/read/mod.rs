@@ -4,6 +4,7 @@ mod equations;
 mod fields;
 mod quantities;
 mod results;
+mod uses;
 
 use super::document::{Entry, Table, ValueKind};
 use super::names::is_module_name;
@@ -35,49 +36,89 @@ const KEYS: &[&str] = &[
 /// The version of the language.
 const VERSION: i64 = 1;
 
+/// Those that only a spec can have, and why.
+const KEYS_OF_SPECS: &[(&str, &str)] = &[
+    ("name", "only a model has a name; a part is known by its file"),
+    ("transitions", "what a machine does at an event is said in the spec that uses the part"),
+    ("section", "where a map begins is said in the spec that uses the part"),
+];
+
 /// Reads a whole document; `start` is the beginning of the file. Nothing is reported as missing unless `complete`.
 pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
-    let mut sink = Sink { diagnostics, complete };
-    let sink = &mut sink;
+    let sink = &mut Sink { diagnostics, complete };
     let fields = Fields::new(document, start, "the spec".to_owned(), KEYS, sink);
     version(&fields, sink);
-    too_many(&fields, sink);
-    unsupported(
-        &fields,
-        "use",
-        "parts pulled in by `use` are not supported yet",
-        "put their tables into this file",
-        sink,
-    );
-    let entries = |key: &str, sink: &mut Sink<'_>| fields.table(key, sink);
+    let name = fields.string("name", "name = \"my_model\"", sink);
     let spec = Spec {
-        name: fields.string("name", "name = \"my_model\"", sink),
-        title: fields.doc("title", sink),
-        source: fields.doc("source", sink),
-        parameters: quantities::parameters(entries("parameters", sink), sink),
-        states: quantities::states(entries("state", sink), sink),
-        memory: quantities::memory(entries("memory", sink), sink),
-        lets: fields::equations(entries("let", sink), sink),
-        functions: equations::functions(entries("functions", sink), sink),
-        modes: equations::modes(entries("modes", sink), sink),
-        transitions: equations::transitions(entries("transitions", sink), sink),
+        name,
+        transitions: equations::transitions(fields.table("transitions", sink), sink),
         section: fields.get("section").and_then(|entry| equations::section(entry, sink)),
-        measures: results::measures(entries("measures", sink), sink),
-        problems: results::problems(entries("problems", sink), sink),
+        ..shared(&fields, sink)
     };
-    for (key, example) in [("state", "x = { unit = \"m\" }"), ("modes", "x = \"...\"` below `[modes.NAME.flow]")] {
-        if fields.get(key).is_none_or(|entry| matches!(&entry.value.kind, ValueKind::Table(t) if t.entries.is_empty()))
-        {
-            let place = fields.get(key).map_or(start, |entry| entry.key_span);
-            sink.missing(place, format!("a spec needs at least one entry in [{key}]"), &format!("add `{example}`"));
+    for key in ["state", "modes"] {
+        // A part may bring them; what is then still missing is seen when all parts are there.
+        if fields.get(key).is_some() || fields.get("use").is_none() {
+            needs(key, &fields, start, sink);
         }
     }
     check_name(&spec, sink);
     spec
 }
 
+/// Reads a document that is a part.
+pub(crate) fn read_part(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
+    let sink = &mut Sink { diagnostics, complete };
+    let fields = Fields::new(document, start, "the part".to_owned(), KEYS, sink);
+    version(&fields, sink);
+    for (key, why) in KEYS_OF_SPECS {
+        if let Some(entry) = fields.get(key) {
+            let message = format!("a part cannot have `{key}`");
+            sink.push(Diagnostic::error(Code::PartTable, message).at(entry.key_span, "").help(*why));
+        }
+    }
+    shared(&fields, sink)
+}
+
+/// What specs and parts have in common.
+fn shared(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Spec {
+    too_many(fields, sink);
+    let entries = |key: &str, sink: &mut Sink<'_>| fields.table(key, sink);
+    Spec {
+        title: fields.doc("title", sink),
+        source: fields.doc("source", sink),
+        uses: fields.get("use").map_or(Vec::new(), |entry| uses::uses(entry, sink)),
+        parameters: quantities::parameters(entries("parameters", sink), sink),
+        states: quantities::states(entries("state", sink), sink),
+        memory: quantities::memory(entries("memory", sink), sink),
+        lets: fields::equations(entries("let", sink), sink),
+        functions: equations::functions(entries("functions", sink), sink),
+        modes: equations::modes(entries("modes", sink), sink),
+        measures: results::measures(entries("measures", sink), sink),
+        problems: results::problems(entries("problems", sink), sink),
+        ..Spec::default()
+    }
+}
+
+/// Reports a table that has to have an entry and has none.
+fn needs(key: &str, fields: &Fields<'_>, start: Span, sink: &mut Sink<'_>) {
+    let entry = fields.get(key);
+    if entry.is_none_or(|entry| matches!(&entry.value.kind, ValueKind::Table(table) if table.entries.is_empty())) {
+        let diagnostic = nothing_in(key, entry.map_or(start, |entry| entry.key_span));
+        if sink.complete {
+            sink.push(diagnostic);
+        }
+    }
+}
+
+/// The message for a spec without states or modes.
+pub(crate) fn nothing_in(key: &str, place: Span) -> Diagnostic {
+    let example = if key == "state" { "x = { unit = \"m\" }" } else { "x = \"...\"` below `[modes.NAME.flow]" };
+    let message = format!("a spec needs at least one entry in [{key}]");
+    Diagnostic::error(Code::MissingKey, message).at(place, "").help(format!("add `{example}`"))
+}
+
 /// Most states and most modes: a model with more would not fit into the sizes of generated code.
-const STATE_LIMIT: usize = 256;
+pub(crate) const STATE_LIMIT: usize = 256;
 /// Most entries of any other table.
 const ENTRY_LIMIT: usize = 10_000;
 
@@ -116,13 +157,6 @@ fn check_name(spec: &Spec, sink: &mut Sink<'_>) {
     let message = format!("`{}` cannot name a model", super::parser::shortened(&name.value));
     let help = "a model's name has lower-case letters, digits and `_`, begins with a letter and is no Rust keyword";
     sink.push(Diagnostic::error(Code::InvalidName, message).at(name.span, "").help(help));
-}
-
-/// Reports a key that a later version of gaitc will take.
-fn unsupported(fields: &Fields<'_>, key: &str, message: &str, help: &str, sink: &mut Sink<'_>) {
-    if let Some(entry) = fields.get(key) {
-        sink.push(Diagnostic::error(Code::Unsupported, message).at(entry.key_span, "").help(help));
-    }
 }
 
 /// The fields of a named sub-table, e.g. of `[modes.stance]`.

@@ -13,7 +13,7 @@ pub(super) fn parameters(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Pa
 
 fn parameter(entry: &Entry, sink: &mut Sink<'_>) -> Parameter {
     let example = "value = \"13 cm\"";
-    let broken = Parameter { value: None, range: None, doc: String::new() };
+    let broken = Parameter { value: None, range: None, doc: String::new(), replaced: None };
     if let ValueKind::Text(text) | ValueKind::Integer(_, text) | ValueKind::Float(text) = &entry.value.kind {
         return Parameter { value: Some(text.clone()), ..broken };
     }
@@ -25,6 +25,7 @@ fn parameter(entry: &Entry, sink: &mut Sink<'_>) -> Parameter {
         value: value.and_then(|entry| scalar(&entry.value, "value", example, sink)),
         range: fields.get("range").and_then(|entry| interval(entry, "range = [\"5 cm\", \"30 cm\"]", sink)),
         doc: fields.doc("doc", sink),
+        replaced: None,
     }
 }
 
