@@ -14,7 +14,7 @@ use crate::source::{SourceMap, Span};
 
 /// Fills the model's parameters, states and memory and returns the names of the spec.
 pub(super) fn declare(spec: &Spec, model: &mut Model, sources: &SourceMap, diagnostics: &mut Vec<Diagnostic>) -> Scope {
-    let mut scope = Scope::default();
+    let mut scope = Scope::of_spec(spec.name.as_ref().map(|name| name.span.file));
     for (i, item) in spec.parameters.iter().enumerate() {
         let parameter = parameter(item, &mut Quantities { sources, diagnostics });
         let dimension = parameter.as_ref().map(|parameter| parameter.dimension);

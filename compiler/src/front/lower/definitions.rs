@@ -174,6 +174,11 @@ pub(super) fn undefined(name: &str, span: Span, scope: &Scope) -> Diagnostic {
     let near = scope.suggest(name, |entity| !matches!(entity, Entity::Function(_)));
     let words = || suggest(name, ["pi", "tau", "duration", "spectral_radius"]);
     match near.or_else(words) {
+        near if scope.in_part(span) => {
+            let near = near.map_or(String::new(), |near| format!("; or did the part mean `{near}`?"));
+            let take = format!("a part takes from its user what it does not define: define `{name}` in the spec, or ");
+            diagnostic.help(format!("{take}`rename` it to what it is called there{near}"))
+        }
         Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
         None => diagnostic.help(format!("define `{name}` in [parameters], [state], [memory] or [let]")),
     }

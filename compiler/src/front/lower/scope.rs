@@ -3,7 +3,7 @@
 use crate::dimension::Dimension;
 use crate::front::names::suggest;
 use crate::ir::Model;
-use crate::source::Span;
+use crate::source::{FileId, Span};
 use std::collections::HashMap;
 
 /// What a name stands for; indices into the lists of the spec.
@@ -46,9 +46,16 @@ pub(crate) struct Definition {
 pub(crate) struct Scope {
     definitions: HashMap<String, Definition>,
     order: Vec<String>,
+    /// The file of the spec; others are parts.
+    spec: Option<FileId>,
 }
 
 impl Scope {
+    /// No names yet, of a spec in this file.
+    pub(super) fn of_spec(spec: Option<FileId>) -> Self {
+        Self { spec, ..Self::default() }
+    }
+
     /// The names of a compiled model that expressions on the command line may use.
     pub(crate) fn of_model(model: &Model) -> Self {
         let mut scope = Self::default();
@@ -68,6 +75,11 @@ impl Scope {
             insert(&memory.name, Entity::Memory(i), Dimension::NONE);
         }
         scope
+    }
+
+    /// Whether a place is in a part.
+    pub(super) fn in_part(&self, span: Span) -> bool {
+        self.spec.is_some_and(|spec| span.file != spec)
     }
 
     pub(crate) fn get(&self, name: &str) -> Option<Definition> {
