@@ -84,6 +84,29 @@ fn the_rate_at_a_dead_centre_is_its_limit() {
     assert_relative_eq!(found.map.measures[5], limit, max_relative = 3e-9);
 }
 
+/// At 45 degrees a step starts without tangential velocity: the sideways speed is zero, to rounding, where the mass matrix
+/// vanishes, and its sign changes at once or never.
+#[test]
+fn a_switch_at_the_singular_start() {
+    let psi = 45.0_f64.to_radians();
+    for p_theta in [0.0, 1e-17, -1e-17, 1e-16, -1e-16, 1e-13, -1e-13, 1e-10, -1e-10, 1e-7, -1e-7, 1e-5, -1e-5] {
+        let mut p = parameters(56.57, 58.0, 45.0);
+        p[9] = psi;
+        let z = [-0.8, p_theta];
+        let mut wanted = request(&z, &p, Sensitivity::Coordinates);
+        let bare = completed(&M_S, &wanted);
+        wanted.measures = true;
+        for method in [Method::Radau5, Method::Radau3] {
+            wanted.accuracy.method = method;
+            let whole = completed(&M_S, &wanted);
+            assert!(whole.measures.iter().all(|m| m.is_finite()), "{p_theta} {:?}", whole.measures);
+            for (a, b) in bare.coordinates.iter().zip(&whole.coordinates) {
+                assert!((a - b).abs() < 1e-9, "{p_theta}: {a} {b}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_work_is_what_it_was() {
     let (z, p) = ([-0.3548, -0.2294], parameters(56.57, 58.0, 20.0));

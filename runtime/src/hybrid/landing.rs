@@ -12,6 +12,8 @@ use crate::return_map::StopReason;
 
 /// The second part of a split step, as a fraction of it.
 const LAST_PART: f64 = 0.01;
+/// An event before this fraction of a step takes its rates from the step that it lies in.
+const EARLY: f64 = 1e-3;
 /// Corrections of the second part's size.
 const CORRECTIONS: usize = 4;
 
@@ -24,6 +26,14 @@ where
 {
     /// Replaces the step by one (or two) from the same start that ends at the event `found`.
     pub(crate) fn land(&mut self, found: &Found) -> Result<(), StopReason> {
+        let part = found.h / self.step.h;
+        if X::RATES_BY_POLYNOMIAL && part < EARLY {
+            let accepted = self.step.stages;
+            self.shorten(found.h)?;
+            X::take_rates(&mut self.step, &accepted, part);
+            self.examine_extrema();
+            return Ok(());
+        }
         if !(X::RATES_BY_POLYNOMIAL && R::MEASURED) {
             self.shorten(found.h)?;
             self.examine_extrema();

@@ -109,6 +109,14 @@ impl Method for Explicit {
         *evaluations += 1;
     }
 
+    fn take_rates<const N: usize, const W: usize, const C: usize>(
+        _: &mut StepOf<Self, N, W, C>,
+        _: &Stages<Bundle<N, W, C>>,
+        _: f64,
+    ) {
+        // The flow gives the rates at any place.
+    }
+
     fn dense<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
         frame: Frame<'_, P>,
         step: &StateStep<Self, N>,

@@ -124,6 +124,14 @@ pub(crate) trait Method: Copy + Debug + Send + Sync + 'static {
         evaluations: &mut usize,
     );
 
+    /// Takes the rates of a step that is a small part `u` of one that was accepted, with stages `accepted`, from that one:
+    /// over so short a time differences of states say nothing about rates.
+    fn take_rates<const N: usize, const W: usize, const C: usize>(
+        step: &mut StepOf<Self, N, W, C>,
+        accepted: &Self::Stages<N, W, C>,
+        u: f64,
+    );
+
     /// The continuous output of a step.
     fn dense<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
         frame: Frame<'_, P>,

@@ -198,6 +198,22 @@ where
         step.end_rates = step.stages.k[S - 1];
     }
 
+    fn take_rates<const N: usize, const W: usize, const C: usize>(
+        step: &mut StepOf<Self, N, W, C>,
+        accepted: &Stages<N, W, C, S>,
+        u: f64,
+    ) {
+        let t = &Self::TABLEAU;
+        let at_start = t.values(0.0);
+        for (i, stage) in step.stages.k.iter_mut().enumerate() {
+            // The rate at the start is known better than the polynomial's, which knows how it changes.
+            let here = t.values(u * t.c[i]);
+            let change = core::array::from_fn(|j| here[j] - at_start[j]);
+            *stage = step.start_rates.advance(1.0, change, accepted.k.each_ref());
+        }
+        step.end_rates = step.stages.k[S - 1];
+    }
+
     fn dense<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
         _: Frame<'_, P>,
         step: &StateStep<Self, N>,
@@ -395,9 +411,13 @@ where
         step: &StepOf<Self, N, W, C>,
         tolerance: Tolerance,
     ) -> f64 {
+        // Of the state alone: a variation may miss by a tolerance what slaves it, and is drawn back to it at once.
+        let state = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };
+        let k: Rates<N, S> = core::array::from_fn(|s| step.stages.k[s].x);
         let term = |m: usize| {
-            let coefficient = Bundle::ZERO.advance(step.h, Self::TABLEAU.coefficient(m), step.stages.k.each_ref());
-            size(&step.start, &step.end, &coefficient, tolerance_of_estimate(tolerance, S, FACTOR_WITH_RATES))
+            let coefficient = weighted(&Self::TABLEAU.coefficient(m), &k).map(|v| step.h * v);
+            let estimate = tolerance_of_estimate(tolerance, S, FACTOR_WITH_RATES);
+            size(&state(step.start.x), &state(step.end.x), &state(coefficient), estimate)
         };
         let (last, before) = (term(S - 1), term(S - 2));
         if last == 0.0 { 0.0 } else { last * (last / before).min(1.0) }

@@ -54,9 +54,9 @@ impl Equations<4, 10, 2> for CrankSlider {
         name: "crank_slider",
         parameters: PARAMETERS,
         states: &[quantity("phi"), quantity("Omega"), quantity("q_theta"), quantity("p_theta")],
-        modes: &[ModeInfo { name: "stance", switches: &[], measured_switches: &[0] }],
+        modes: &[ModeInfo { name: "stance", switches: &[], measured_switches: &[0, 1] }],
         transitions: &[TransitionInfo { name: "step", from: 0, to: 0, direction: Direction::Falling, also_zero: &[] }],
-        switches: &["max(power, 0)"],
+        switches: &["max(power, 0)", "abs(v_x)"],
         coordinates: &[2, 3],
         symmetric: true,
         functionals: &[
@@ -99,8 +99,12 @@ impl Equations<4, 10, 2> for CrankSlider {
         let power = torque(omega, p) * omega;
         [speed * q.sin() - v_r * q.cos(), S::select(env.branch[0], power, c(0.0))]
     }
-    fn switch<S: Scalar>(_: usize, x: &[S; 4], env: &Env<'_, S, 10>) -> S {
-        torque(x[1], env.p) * x[1]
+    fn switch<S: Scalar>(i: usize, x: &[S; 4], env: &Env<'_, S, 10>) -> S {
+        match i {
+            0 => torque(x[1], env.p) * x[1],
+            // The sideways speed; nothing depends on it, but it has to be located.
+            _ => leg(x[0], env.p)[1] * x[1] * x[2].sin() + x[3] * x[2].cos(),
+        }
     }
     fn observable_with_rate<S: Scalar>(i: usize, _: usize, x: &[S; 4], k: &[S; 4], env: &Env<'_, S, 10>) -> S {
         let ([phi, omega, q, speed], p) = (*x, env.p);
