@@ -320,6 +320,24 @@ pub enum Functional {
     Duration,
 }
 
+/// Where a Poincare section stands. A section on a surface inside a mode stands after a transition that changes nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// Just after the transition of this index: a state on it is one that the reset has made.
+    After(usize),
+    /// Just before it: a map begins with the reset.
+    Before(usize),
+}
+
+impl Section {
+    /// Index of the transition.
+    pub const fn transition(self) -> usize {
+        match self {
+            Self::After(transition) | Self::Before(transition) => transition,
+        }
+    }
+}
+
 /// Names, units and structure of a compiled model.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelInfo {
@@ -341,8 +359,8 @@ pub struct ModelInfo {
     pub switches: &'static [&'static str],
     /// Section: state indices of its coordinates; empty when the model has no section.
     pub coordinates: &'static [usize],
-    /// Section: index of the transition it stands after; `None` when the model has no section.
-    pub section_after: Option<usize>,
+    /// Section: where it stands; `None` when the model has no section.
+    pub section: Option<Section>,
     /// Whether the section has a symmetry.
     pub symmetric: bool,
     /// Functionals, in the order that `measures` takes them.

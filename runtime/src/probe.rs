@@ -130,7 +130,7 @@ pub fn functions(info: &ModelInfo) -> Vec<Function> {
             all.push(Function::Memory(transition));
         }
     }
-    if info.section_after.is_some() {
+    if info.section.is_some() {
         all.push(Function::Embed);
     }
     if info.symmetric {

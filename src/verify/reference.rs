@@ -222,7 +222,7 @@ mod tests {
         transitions: &[],
         switches: &[],
         coordinates: &[],
-        section_after: None,
+        section: None,
         symmetric: false,
         functionals: &[Functional::Mean(0), Functional::Maximum(0)],
         measures: &[NUMBER, NUMBER],

@@ -71,6 +71,7 @@ codes! {
     ProblemForm "E0409" "a problem needs exactly one objective and something to vary";
     Mass "E0410" "a mass matrix that is singular everywhere";
     NoReturn "E0411" "no run comes back to the section";
+    ClockOnSection "E0412" "the time since the last transition is not known on the section";
     Unused "W0001" "something is defined and never used";
     ZeroDerivative "W0002" "a derivative that is always zero";
     Unreachable "W0003" "a mode that no run reaches";

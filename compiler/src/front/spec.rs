@@ -20,6 +20,7 @@ pub(crate) struct Spec {
     pub(crate) functions: Vec<Named<Function>>,
     pub(crate) modes: Vec<Named<Mode>>,
     pub(crate) transitions: Vec<Named<Transition>>,
+    pub(crate) surfaces: Vec<Named<Surface>>,
     pub(crate) section: Option<Section>,
     pub(crate) measures: Vec<Named<Measure>>,
     pub(crate) problems: Vec<Named<Problem>>,
@@ -120,10 +121,29 @@ pub(crate) struct Transition {
     pub(crate) also_zero: Option<(Span, Vec<Equation>)>,
 }
 
+/// A surface inside a mode, which a run passes without noticing.
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
+    pub(crate) mode: Option<Text>,
+    pub(crate) guard: Option<Equation>,
+    pub(crate) direction: Option<Direction>,
+}
+
+/// At what a section stands.
+#[derive(Clone, Debug)]
+pub(crate) enum Anchor {
+    /// Just after this transition.
+    After(Text),
+    /// Just before this transition.
+    Before(Text),
+    /// On this surface.
+    At(Text),
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
     pub(crate) span: Span,
-    pub(crate) after: Option<Text>,
+    pub(crate) anchor: Option<Anchor>,
     /// `None` where they are missing or broken.
     pub(crate) coordinates: Option<Vec<Text>>,
     pub(crate) embed: Vec<Named<Equation>>,
@@ -160,6 +180,7 @@ impl Spec {
             let also_zero = item.value.also_zero.iter().flat_map(|(_, equations)| equations);
             item.value.guard.iter().chain(&item.value.when).chain(reset).chain(also_zero)
         });
+        let surfaces = self.surfaces.iter().filter_map(|item| item.value.guard.as_ref());
         let section = self
             .section
             .iter()
@@ -170,7 +191,22 @@ impl Spec {
             .iter()
             .flat_map(|item| item.value.objective.iter().map(|(_, equation)| equation).chain(&item.value.subject_to));
         let results = measures.chain(problems);
-        lets.chain(functions).chain(flows).chain(masses).chain(transitions).chain(section).chain(results)
+        lets.chain(functions)
+            .chain(flows)
+            .chain(masses)
+            .chain(transitions)
+            .chain(surfaces)
+            .chain(section)
+            .chain(results)
+    }
+}
+
+impl Anchor {
+    /// The name of the transition or surface.
+    pub(crate) const fn name(&self) -> &Text {
+        match self {
+            Self::After(name) | Self::Before(name) | Self::At(name) => name,
+        }
     }
 }
 

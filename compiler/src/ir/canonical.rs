@@ -105,7 +105,8 @@ impl<'a> Writer<'a> {
 
     fn section(&mut self, model: &Model) {
         if let Some(section) = &model.section {
-            self.line(format_args!("section after {} coordinates {:?}", section.after, section.coordinates));
+            let side = if section.before { "before" } else { "after" };
+            self.line(format_args!("section {side} {} coordinates {:?}", section.transition, section.coordinates));
             self.item("embed", &section.embed);
             if let Some(symmetry) = &section.symmetry {
                 self.item("symmetry", symmetry);

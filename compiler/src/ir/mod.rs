@@ -127,6 +127,8 @@ pub enum Direction {
 pub struct Transition {
     /// Name in the spec.
     pub name: String,
+    /// Whether it is a surface: a transition from a mode to itself that changes nothing.
+    pub surface: bool,
     /// Index of the mode it leaves.
     pub from: usize,
     /// Index of the mode it enters.
@@ -164,11 +166,14 @@ pub struct AlsoZero {
     pub rate: usize,
 }
 
-/// The Poincare section: just after a transition.
+/// The Poincare section: just after a transition, or just before it. A section on a surface inside a mode stands after a
+/// transition of that mode to itself that changes nothing.
 #[derive(Clone, Debug)]
 pub struct Section {
     /// Index of the transition.
-    pub after: usize,
+    pub transition: usize,
+    /// Whether it stands before the transition, not after it.
+    pub before: bool,
     /// State indices of the coordinates.
     pub coordinates: Vec<usize>,
     /// For each state its value on the section, as a function of coordinate states and parameters.
@@ -177,6 +182,14 @@ pub struct Section {
     pub start: Vec<f64>,
     /// Image of each state under the symmetry, as a function of states and parameters.
     pub symmetry: Option<Vec<NodeId>>,
+}
+
+impl Section {
+    /// The mode of the states on it; the transition that it stands at is one of `transitions`.
+    pub fn mode(&self, transitions: &[Transition]) -> Option<usize> {
+        let transition = transitions.get(self.transition)?;
+        Some(if self.before { transition.from } else { transition.to })
+    }
 }
 
 /// What is taken of an expression over one map.

@@ -166,7 +166,7 @@ impl Check<'_> {
         }
         if let Some(section) = &m.section {
             let distinct: HashSet<_> = section.coordinates.iter().collect();
-            let sound = section.after < m.transitions.len()
+            let sound = section.transition < m.transitions.len()
                 && section.coordinates.iter().all(|&i| i < n)
                 && distinct.len() == section.coordinates.len()
                 && section.start.len() == section.coordinates.len()

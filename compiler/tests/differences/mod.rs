@@ -200,7 +200,7 @@ fn check_integrands<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
 
 fn check_embed<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(point: &Point<N, P>) {
     let coordinates = M::INFO.coordinates;
-    if M::INFO.section_after.is_none() {
+    if M::INFO.section.is_none() {
         return;
     }
     let embed = |at: &Point<N, P>| {

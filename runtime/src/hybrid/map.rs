@@ -5,9 +5,11 @@
 use super::functionals::{Variation, Varied, along, observe};
 use super::passing::Place;
 use super::run::Run;
+use crate::event::selectors;
 use crate::integrate::{Carried, Method};
-use crate::model::Model;
+use crate::model::{Model, Section};
 use crate::return_map::{MapRequest, StopReason};
+use crate::sensitivity::through;
 
 /// Section coordinates, the first d of N, and their variations.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +31,7 @@ where
     pub(crate) fn map(
         &mut self,
         request: &MapRequest<'_>,
-        section: usize,
+        section: Section,
         mut at: Coordinates<N, C>,
     ) -> Result<(Coordinates<N, C>, [f64; N]), StopReason> {
         let mut first = [0.0; N];
@@ -38,17 +40,50 @@ where
             if turn == 0 {
                 first = self.step.start.x;
             }
-            self.segment.mode = M::INFO.transitions.get(section).map_or(usize::MAX, |t| t.to);
             self.segment.memory.clear();
             self.segment.memory.extend_from_slice(request.memory);
             self.step.tau = 0.0;
+            self.leave(section);
             self.deadline = self.segment.start + self.accuracy.time_limit;
             self.check_finite()?;
             self.begin(turn == 0 && request.measures)?;
-            self.run_to_section(section, turn + 1 == request.period && request.measures)?;
+            self.run_to_section(section.transition(), turn + 1 == request.period && request.measures)?;
             at = self.project();
         }
         Ok((at, first))
+    }
+
+    /// Enters the mode in which the map begins; from a section before a transition by that transition's reset.
+    fn leave(&mut self, section: Section) {
+        let Some(transition) = M::INFO.transitions.get(section.transition()) else {
+            self.segment.mode = usize::MAX;
+            return;
+        };
+        if let Section::Before(i) = section {
+            self.ahead = Some(i);
+            self.segment.mode = transition.from;
+            self.reset_at_once(i);
+        }
+        self.segment.mode = transition.to;
+    }
+
+    /// Makes a transition where the run is, at its beginning. Such a reset does not depend on tau (the front end sees to
+    /// that), and the section does not move in time.
+    fn reset_at_once(&mut self, i: usize) {
+        let x = self.step.start.x;
+        let switches = M::INFO.modes.get(self.segment.mode).map_or(&[][..], |mode| mode.switches);
+        if !switches.is_empty() {
+            self.segment.branch = selectors::by_sign::<M, N, P, Q>(self.segment.frame(), switches, 0.0, &x);
+        }
+        let reset = M::reset_jacobian(i, &x, &self.segment.env(0.0));
+        let mut memory = self.segment.memory.clone();
+        M::reset(i, &x, &self.segment.env(0.0), &mut memory);
+        for c in 0..C {
+            let dx = self.step.start.dx[c];
+            self.step.start.dx[c] = through(&reset, &dx, &self.segment.dp[c], self.segment.dstart[c], 0.0);
+        }
+        self.step.start.x = reset.value;
+        self.segment.memory = memory;
     }
 
     /// Starts the segment that follows the start of a map or a transition.
@@ -123,18 +158,21 @@ where
         }
     }
 
-    /// Applies the symmetry to the state just after the section's transition and takes its coordinates.
+    /// Applies the symmetry to the state on the section and takes its coordinates.
     fn project(&self) -> Coordinates<N, C> {
-        let y = &self.step.start;
-        let (mut x, mut dx) = (y.x, y.dx);
+        let (mut x, mut dx) = match self.ahead {
+            Some(_) => self.on_section,
+            None => (self.step.start.x, self.step.start.dx),
+        };
         if M::INFO.symmetric {
-            let s = M::symmetry_jacobian(&y.x, self.segment.p);
+            let s = M::symmetry_jacobian(&x, self.segment.p);
+            let before = dx;
             x = s.value;
             for c in 0..C {
                 for i in 0..N {
                     let mut sum = 0.0;
                     for j in 0..N {
-                        sum += s.dx[j][i] * y.dx[c][j];
+                        sum += s.dx[j][i] * before[c][j];
                     }
                     for j in 0..P {
                         sum += s.dp[j][i] * self.segment.dp[c][j];

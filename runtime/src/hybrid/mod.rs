@@ -15,7 +15,7 @@ mod segment;
 
 use crate::integrate;
 use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
-use crate::model::{Model, ModelInfo};
+use crate::model::{Model, ModelInfo, Section};
 use crate::return_map::{
     AlsoZeroAt, MapOutcome, MapRequest, MapResult, Method, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
 };
@@ -28,6 +28,8 @@ use run::Run;
 /// The largest numbers of columns in one pass. Each width is compiled for each model, so there are few.
 const WIDEST_BARE: usize = 4;
 const WIDEST_WHOLE: usize = 8;
+/// A section of more coordinates than this takes the widest pass.
+const NARROW: usize = 2;
 
 /// The return map of a compiled model.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,7 +46,12 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         Self(PhantomData)
     }
 
-    fn evaluate_columns(&self, request: &MapRequest<'_>, section: usize, method: Method) -> Result<MapResult, Failure> {
+    fn evaluate_columns(
+        &self,
+        request: &MapRequest<'_>,
+        section: Section,
+        method: Method,
+    ) -> Result<MapResult, Failure> {
         let coordinates = M::INFO.coordinates.len();
         let (count, chosen): (usize, &[usize]) = match request.sensitivity {
             Sensitivity::None => (0, &[]),
@@ -134,37 +141,42 @@ macro_rules! widths {
 
 fn explicit<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
-    section: usize,
+    section: Section,
     columns: Columns<'_>,
 ) -> Result<MapResult, Failure> {
     // Nothing of it is compiled for models that have no explicit flow.
     if const { !M::INFO.explicit } {
         return Err(Failure::impossible());
     }
-    if columns.bare {
-        widths!(Explicit, Bare, 0, (request, section, columns); 0, 2, 4)
+    if !columns.bare {
+        return widths!(Explicit, Whole, Q, (request, section, columns); 8);
+    }
+    // Without parameters there are no more columns than coordinates.
+    if const { M::INFO.coordinates.len() <= NARROW } {
+        widths!(Explicit, Bare, 0, (request, section, columns); 0, 2)
     } else {
-        widths!(Explicit, Whole, Q, (request, section, columns); 2, 8)
+        widths!(Explicit, Bare, 0, (request, section, columns); 0, 4)
     }
 }
 
-/// One width for each kind: the method solves for the columns in use only, and compiles slowly.
+/// One width for each kind: the method solves for the columns in use only, and compiles slowly. Models with an explicit flow
+/// come here when they are stiff, or to check the other method.
 fn radau5<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
-    section: usize,
+    section: Section,
     columns: Columns<'_>,
 ) -> Result<MapResult, Failure> {
-    if columns.bare {
+    if columns.bare && const { !M::INFO.explicit } {
         widths!(Radau<5>, Bare, 0, (request, section, columns); 4)
     } else {
         widths!(Radau<5>, Whole, Q, (request, section, columns); 8)
     }
 }
 
-/// One width for all: it is there to check the other method.
+/// One width for all: it is there to check the other method where that is the only one that fits.
 fn radau3<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
-    section: usize,
+    section: Section,
     columns: Columns<'_>,
 ) -> Result<MapResult, Failure> {
     widths!(Radau<3>, Whole, Q, (request, section, columns); 8)
@@ -172,7 +184,7 @@ fn radau3<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
 
 fn pass<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
     request: &MapRequest<'_>,
-    section: usize,
+    section: Section,
     columns: Columns<'_>,
 ) -> Result<MapResult, Failure>
 where

@@ -101,6 +101,9 @@ where
         let dstart = self.segment.dstart;
         let dx = self.step.end.dx;
         let place = self.place(&crossing);
+        if self.ahead == Some(i) {
+            self.on_section = (x, place.dx);
+        }
         self.observe_boundary(&place);
         if last {
             self.record_end(&place);

@@ -1,11 +1,11 @@
 //! Checks of a request before any work is done.
 
-use crate::model::ModelInfo;
+use crate::model::{ModelInfo, Section};
 use crate::return_map::{MapRequest, Method, RequestError, Sensitivity};
 
-/// Whether the request fits the model; the section's transition.
-pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Result<usize, RequestError> {
-    let section = info.section_after.ok_or(RequestError::NoSection(info.name))?;
+/// Whether the request fits the model; where the section stands.
+pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Result<Section, RequestError> {
+    let section = info.section.ok_or(RequestError::NoSection(info.name))?;
     values("section coordinates", request.coordinates, info.coordinates.len())?;
     values("parameters", request.parameters, info.parameters.len())?;
     values("memory", request.memory, info.memory.len())?;

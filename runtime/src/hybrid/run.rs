@@ -55,6 +55,10 @@ pub(crate) struct Run<
     pub(crate) ceiling: f64,
     /// Surfaces of the current mode.
     pub(crate) watched: Vec<Watched>,
+    /// The transition before which the section stands, if it stands before one, ...
+    pub(crate) ahead: Option<usize>,
+    /// ... and state and variations of the place where that transition was made last.
+    pub(crate) on_section: ([f64; N], [[f64; N]; C]),
     /// Functionals other than integrals.
     pub(crate) functionals: Functionals<C>,
     /// What happened.
@@ -102,6 +106,8 @@ where
             h: 0.0,
             ceiling: f64::INFINITY,
             watched: Vec::new(),
+            ahead: None,
+            on_section: ([0.0; N], [[0.0; N]; C]),
             functionals,
             events: Vec::new(),
             warnings: Vec::new(),

@@ -6,5 +6,5 @@ mod dual;
 mod saltation;
 
 pub use dual::Dual;
-pub(crate) use saltation::dot;
 pub use saltation::{Clock, Crossing, saltation_matrix};
+pub(crate) use saltation::{dot, through};

@@ -68,7 +68,7 @@ impl<const N: usize, const P: usize> Crossing<'_, N, P> {
             total[i] += self.before[i] * dtau;
         }
         if let Some(reset) = self.reset {
-            total = apply(reset, &total, dp, dstart, dtau);
+            total = through(reset, &total, dp, dstart, dtau);
         }
         if let Clock::RunsOn(after) = self.clock {
             for i in 0..N {
@@ -90,7 +90,8 @@ pub fn saltation_matrix<const N: usize, const P: usize>(crossing: &Crossing<'_, 
     })
 }
 
-fn apply<const N: usize, const P: usize>(
+/// How variations of the state at an event, its motion in time included, pass the reset.
+pub(crate) fn through<const N: usize, const P: usize>(
     reset: &Jacobian<f64, N, P>,
     total: &[f64; N],
     dp: &[f64; P],

@@ -5,7 +5,7 @@
 use super::auto::{Auto, Equations, c};
 use core::f64::consts::PI;
 use gaitc_runtime::hybrid::Hybrid;
-use gaitc_runtime::model::{Direction, Env, Functional, ModeInfo, ModelInfo, Quantity, TransitionInfo};
+use gaitc_runtime::model::{Direction, Env, Functional, ModeInfo, ModelInfo, Quantity, Section, TransitionInfo};
 use gaitc_runtime::scalar::Scalar;
 
 pub const fn quantity(name: &'static str) -> Quantity {
@@ -31,7 +31,7 @@ pub const BLANK: ModelInfo = ModelInfo {
     transitions: &[],
     switches: &[],
     coordinates: &[],
-    section_after: Some(0),
+    section: Some(Section::After(0)),
     symmetric: false,
     functionals: &[],
     measures: &[],

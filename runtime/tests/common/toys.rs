@@ -3,7 +3,7 @@
 use super::auto::{Auto, Equations, c};
 use super::climbers::{BLANK, quantity};
 use gaitc_runtime::hybrid::Hybrid;
-use gaitc_runtime::model::{Direction, Env, Functional, ModeInfo, ModelInfo, TransitionInfo};
+use gaitc_runtime::model::{Direction, Env, Functional, ModeInfo, ModelInfo, Section, TransitionInfo};
 use gaitc_runtime::scalar::Scalar;
 
 const ONE_MODE: &[ModeInfo] = &[ModeInfo { name: "flow", switches: &[], measured_switches: &[] }];
@@ -269,7 +269,7 @@ toy!(
             self_transition("second", Direction::Rising),
         ],
         coordinates: &[0],
-        section_after: Some(1),
+        section: Some(Section::After(1)),
         ..BLANK
     },
     {

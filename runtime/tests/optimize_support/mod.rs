@@ -4,7 +4,7 @@
 #![allow(clippy::print_stdout)] // shown for failing tests only
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failing test should say where
 
-use gaitc_runtime::model::{ModelInfo, Quantity};
+use gaitc_runtime::model::{ModelInfo, Quantity, Section};
 use gaitc_runtime::optimize::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, Sense, Settings, Solution, Value, Vary, solve,
 };
@@ -127,7 +127,7 @@ impl Closed {
             transitions: &[],
             switches: &[],
             coordinates: Box::leak((0..d).collect()),
-            section_after: Some(0),
+            section: Some(Section::After(0)),
             symmetric: false,
             functionals: &[],
             measures: quantities(measures),

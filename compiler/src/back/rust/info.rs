@@ -31,10 +31,11 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
         })
     });
     let coordinates = model.section.iter().flat_map(|s| &s.coordinates).map(|&i| text::count(i));
-    let after = match &model.section {
+    let section = match &model.section {
         Some(section) => {
-            let after = text::count(section.after);
-            quote!(::core::option::Option::Some(#after))
+            let transition = text::count(section.transition);
+            let side = if section.before { quote!(Before) } else { quote!(After) };
+            quote!(::core::option::Option::Some(model::Section::#side(#transition)))
         }
         None => quote!(::core::option::Option::None),
     };
@@ -53,7 +54,7 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
             transitions: &[#(#transitions),*],
             switches: &[#(#switches),*],
             coordinates: &[#(#coordinates),*],
-            section_after: #after,
+            section: #section,
             symmetric: #symmetric,
             functionals: &[#(#functionals),*],
             measures: &[#(#measures),*],

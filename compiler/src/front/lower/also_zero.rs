@@ -12,11 +12,11 @@ use crate::source::Span;
 impl Lowering<'_> {
     /// Lowers `also_zero` of all transitions.
     pub(super) fn also_zero(&mut self, spec: &Spec) {
-        let after = spec.section.as_ref().map(|section| section.after.as_ref().map(|name| name.value.as_str()));
+        let after = spec.section.as_ref().map(|section| section.anchor.as_ref().map(|a| a.name().value.as_str()));
         for (i, item) in spec.transitions.iter().enumerate() {
             let Some((span, equations)) = &item.value.also_zero else { continue };
             match after {
-                Some(Some(after)) if after == item.name => {}
+                Some(Some(name)) if name == item.name => {}
                 // Which transition is meant has been asked for already.
                 Some(None) => continue,
                 _ => {
@@ -50,7 +50,7 @@ impl Lowering<'_> {
     }
 
     fn not_of_the_section(&mut self, item: &Named<Transition>, span: Span, after: Option<&str>) {
-        let message = format!("`also_zero` of transition `{}`, after which there is no section", item.name);
+        let message = format!("`also_zero` of transition `{}`, at which there is no section", item.name);
         let error = Diagnostic::error(Code::UnknownReference, message).at(span, "");
         self.diagnostics.push(match after {
             Some(after) => error.help(format!("it is known at the ends of a map: move it to [transitions.{after}]")),

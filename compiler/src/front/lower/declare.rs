@@ -52,7 +52,8 @@ pub(super) fn declare(spec: &Spec, model: &mut Model, sources: &SourceMap, diagn
     let modes = spec.modes.iter().map(|item| (item.name.as_str(), item.span));
     let transitions = spec.transitions.iter().map(|item| (item.name.as_str(), item.span));
     let problems = spec.problems.iter().map(|item| (item.name.as_str(), item.span));
-    for (name, span) in modes.chain(transitions).chain(problems) {
+    let surfaces = spec.surfaces.iter().map(|item| (item.name.as_str(), item.span));
+    for (name, span) in modes.chain(transitions).chain(surfaces).chain(problems) {
         valid(name, span, diagnostics);
     }
     scope

@@ -43,7 +43,7 @@ impl Lowering<'_> {
         has_state
     }
 
-    fn mode(&mut self, spec: &Spec, name: &Text) -> Option<usize> {
+    pub(super) fn mode(&mut self, spec: &Spec, name: &Text) -> Option<usize> {
         let names: Vec<&str> = spec.modes.iter().map(|mode| mode.name.as_str()).collect();
         self.reference("mode", &name.value, name.span, &names)
     }
@@ -170,6 +170,7 @@ impl Lowering<'_> {
             let zero = self.model.graph.constant(0.0);
             self.model.transitions.push(ir::Transition {
                 name: item.name.clone(),
+                surface: false,
                 from: from.unwrap_or(0),
                 to: to.unwrap_or(0),
                 guard: guard.map_or(zero, |value| value.node),
@@ -187,7 +188,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn guard(&mut self, guard: &Equation, rates: Rates) -> Option<Value> {
+    pub(super) fn guard(&mut self, guard: &Equation, rates: Rates) -> Option<Value> {
         let value = self.equation(guard, Place::Event(rates))?;
         self.moves(value, guard, "this guard").then_some(value)
     }

@@ -4,6 +4,7 @@ mod absent;
 mod also_zero;
 mod branch;
 mod call;
+mod clock;
 mod declare;
 mod definitions;
 mod derivative;
@@ -20,6 +21,7 @@ mod problems;
 mod reach;
 mod scope;
 mod section;
+mod surfaces;
 mod unused;
 mod value;
 
@@ -44,6 +46,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     let mut lowering = Lowering::new(&mut model, &scope, &definitions, sources, diagnostics);
     lowering.modes(spec);
     lowering.transitions(spec);
+    lowering.surfaces(spec);
     lowering.section(spec);
     lowering.measures(spec);
     lowering.also_zero(spec);
@@ -55,6 +58,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     // Where a name is misspelt, what it was meant to be only looks unused, and what follows from equations is not known.
     if !diagnostics.iter().any(Diagnostic::is_error) {
         reach::check(spec, &model, diagnostics);
+        clock::check(spec, &model, diagnostics);
         involution::check(spec, &model, diagnostics);
         unused::check(spec, diagnostics);
     }

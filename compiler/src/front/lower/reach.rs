@@ -1,19 +1,20 @@
 //! Which modes a run goes through: it begins at the section, and has to come back to it.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::front::spec::Spec;
+use crate::front::spec::{self, Spec};
 use crate::ir::Model;
 
 /// Checks the modes of a spec without errors; one without a section has no runs that begin somewhere.
 pub(super) fn check(spec: &Spec, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
-    let Some((section, after)) = model.section.as_ref().and_then(|s| Some((s, model.transitions.get(s.after)?))) else {
+    let Some((section, after)) = model.section.as_ref().and_then(|s| Some((s, model.transitions.get(s.transition)?)))
+    else {
         return;
     };
     let reached = reached_from(model, after.to);
     let mode = |i: usize| model.modes.get(i).map_or("", |mode| mode.name.as_str());
     if !reached.get(after.from).copied().unwrap_or(false) {
-        let name = model.transitions.get(section.after).map_or("", |transition| transition.name.as_str());
-        let place = spec.section.as_ref().and_then(|section| section.after.as_ref());
+        let name = model.transitions.get(section.transition).map_or("", |transition| transition.name.as_str());
+        let place = spec.section.as_ref().and_then(|section| section.anchor.as_ref()).map(spec::Anchor::name);
         let message = "no run that begins on the section comes back to it";
         let error = Diagnostic::error(Code::NoReturn, message);
         let label = format!(

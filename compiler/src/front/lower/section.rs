@@ -13,11 +13,11 @@ impl Lowering<'_> {
     /// Lowers `[section]`.
     pub(super) fn section(&mut self, spec: &Spec) {
         let Some(section) = &spec.section else { return };
-        let names: Vec<&str> = spec.transitions.iter().map(|transition| transition.name.as_str()).collect();
-        let after =
-            section.after.as_ref().and_then(|name| self.reference("transition", &name.value, name.span, &names));
-        let target = after.and_then(|after| self.model.transitions.get(after)).map(|transition| transition.to);
-        let has_state = target.and_then(|to| self.model.modes.get(to)).map(|mode| mode.has_state.clone());
+        let transition = section.anchor.as_ref().and_then(|anchor| self.anchor(spec, anchor));
+        let before = matches!(section.anchor, Some(spec::Anchor::Before(_)));
+        let ends = transition.and_then(|i| self.model.transitions.get(i)).map(|t| (t.from, t.to));
+        let mode = ends.map(|(from, to)| if before { from } else { to });
+        let has_state = mode.and_then(|mode| self.model.modes.get(mode)).map(|mode| mode.has_state.clone());
         let given = section.coordinates.as_deref();
         let coordinates = self.coordinates(given.unwrap_or(&[]), has_state.as_deref());
         // Where coordinates are broken, it is not known what else the section has to say.
@@ -25,8 +25,20 @@ impl Lowering<'_> {
         let embed = self.embed(section, &coordinates, has_state.as_deref());
         let start = self.start(section, &coordinates);
         let symmetry = section.symmetry.as_ref().map(|equations| self.symmetry(equations));
-        let after = after.unwrap_or(0);
-        self.model.section = Some(ir::Section { after, coordinates, embed, start, symmetry });
+        let transition = transition.unwrap_or(0);
+        self.model.section = Some(ir::Section { transition, before, coordinates, embed, start, symmetry });
+    }
+
+    /// The index of the transition at which a section stands. Surfaces stand behind the transitions.
+    fn anchor(&mut self, spec: &Spec, anchor: &spec::Anchor) -> Option<usize> {
+        let name = anchor.name();
+        let (kind, names, first): (_, Vec<&str>, _) = match anchor {
+            spec::Anchor::At(_) => {
+                ("surface", spec.surfaces.iter().map(|item| item.name.as_str()).collect(), spec.transitions.len())
+            }
+            _ => ("transition", spec.transitions.iter().map(|item| item.name.as_str()).collect(), 0),
+        };
+        self.reference(kind, &name.value, name.span, &names).map(|i| first + i)
     }
 
     fn coordinates(&mut self, names: &[Text], has_state: Option<&[bool]>) -> Vec<usize> {
@@ -44,8 +56,7 @@ impl Lowering<'_> {
                 continue;
             }
             if has_state.is_some_and(|has| has.get(state) == Some(&false)) {
-                let message =
-                    format!("the mode after the section's transition does not have the state `{}`", name.value);
+                let message = format!("the mode in which the section stands does not have the state `{}`", name.value);
                 let error = Diagnostic::error(Code::SuperfluousEquation, message).at(name.span, "");
                 self.diagnostics.push(error.help("remove it from the coordinates"));
             }

@@ -1,4 +1,4 @@
-//! The tables `[functions]`, `[modes]`, `[transitions]` and `[section]`.
+//! The tables `[functions]`, `[modes]`, `[transitions]`, `[surfaces]` and `[section]`.
 
 use super::fields::{
     Fields, Sink, equation, equation_or_broken, equations, expression, scalar, string, strings, table,
@@ -7,7 +7,8 @@ use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
 use crate::front::names::suggest;
-use crate::front::spec::{Equation, Function, MassRow, Mode, Named, Section, Transition};
+use crate::front::spec::{Anchor, Equation, Function, MassRow, Mode, Named, Section, Surface, Transition};
+use crate::front::text::Text;
 use crate::ir::Direction;
 use crate::source::Span;
 
@@ -102,9 +103,46 @@ fn direction(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Direction> {
     }
 }
 
+/// `[surfaces.NAME]`.
+pub(super) fn surfaces(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Surface>> {
+    let mut surfaces = Vec::new();
+    for entry in entries {
+        let Some(fields) = fields_of(entry, "surface", &["mode", "guard", "direction", "doc"], sink) else {
+            continue;
+        };
+        fields.doc("doc", sink);
+        let value = Surface {
+            mode: fields.string("mode", "mode = \"flight\"", sink),
+            guard: fields.equation("guard", "guard = \"climbing_speed\"", sink),
+            direction: direction(&fields, sink),
+        };
+        surfaces.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+    }
+    surfaces
+}
+
+/// `after = "step"`, `before = "step"` or `at = "apex"`.
+fn anchor(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Anchor> {
+    let keys: [(&str, fn(Text) -> Anchor); 3] =
+        [("after", Anchor::After), ("before", Anchor::Before), ("at", Anchor::At)];
+    let mut given = keys.iter().filter_map(|(key, anchor)| Some((fields.get(key)?, anchor)));
+    let Some((entry, anchor)) = given.next() else {
+        let message = format!("{} does not say where it stands", fields.what);
+        let help = "add `after = \"TRANSITION\"`, `before = \"TRANSITION\"` or `at = \"SURFACE\"`";
+        sink.missing(fields.place, message, help);
+        return None;
+    };
+    for (other, _) in given {
+        let message = format!("a section stands at one place, and `{}` gives another one", other.key);
+        let error = Diagnostic::error(Code::GivenTwice, message).at(other.key_span, "");
+        sink.push(error.see(entry.key_span, "the first one").help("keep one of the two"));
+    }
+    string(entry, &format!("{} = \"step\"", entry.key), sink).map(anchor)
+}
+
 /// `[section]`.
 pub(super) fn section(entry: &Entry, sink: &mut Sink<'_>) -> Option<Section> {
-    let keys = ["after", "coordinates", "embed", "start", "symmetry", "doc"];
+    let keys = ["after", "before", "at", "coordinates", "embed", "start", "symmetry", "doc"];
     let fields = Fields::new(table(entry, sink)?, entry.key_span, "[section]".to_owned(), &keys, sink);
     fields.doc("doc", sink);
     let example = "coordinates = [\"angle\", \"speed\"]";
@@ -117,7 +155,7 @@ pub(super) fn section(entry: &Entry, sink: &mut Sink<'_>) -> Option<Section> {
     }
     Some(Section {
         span: entry.key_span,
-        after: fields.string("after", "after = \"step\"", sink),
+        anchor: anchor(&fields, sink),
         coordinates: coordinates.and_then(|entry| strings(entry, example, sink)),
         embed: equations(fields.table("embed", sink), sink),
         start,

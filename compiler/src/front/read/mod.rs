@@ -28,6 +28,7 @@ const KEYS: &[&str] = &[
     "functions",
     "modes",
     "transitions",
+    "surfaces",
     "section",
     "measures",
     "problems",
@@ -40,6 +41,7 @@ const VERSION: i64 = 1;
 const KEYS_OF_SPECS: &[(&str, &str)] = &[
     ("name", "only a model has a name; a part is known by its file"),
     ("transitions", "what a machine does at an event is said in the spec that uses the part"),
+    ("surfaces", "where a map begins is said in the spec that uses the part"),
     ("section", "where a map begins is said in the spec that uses the part"),
 ];
 
@@ -52,6 +54,7 @@ pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &
     let spec = Spec {
         name,
         transitions: equations::transitions(fields.table("transitions", sink), sink),
+        surfaces: equations::surfaces(fields.table("surfaces", sink), sink),
         section: fields.get("section").and_then(|entry| equations::section(entry, sink)),
         ..shared(&fields, sink)
     };
