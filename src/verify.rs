@@ -5,7 +5,7 @@
 //! pass near zero at one point is not asked for digits that cancellation has taken away.
 
 mod points;
-mod reference;
+pub mod reference;
 
 use crate::load::Loaded;
 use gaitc_runtime::probe::{Function, Point, Variable, functions};

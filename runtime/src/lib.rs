@@ -1,5 +1,6 @@
 //! Runtime of gaitc: integrates compiled hybrid models, linearises their return maps exactly, finds and optimises gaits.
 
+pub(crate) mod also_zero;
 pub(crate) mod event;
 pub mod hybrid;
 pub(crate) mod integrate;

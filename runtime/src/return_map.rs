@@ -4,6 +4,7 @@
 //! coordinates, with memory restarted at its initial value; R flows from just after the section's transition to just
 //! after the next one.
 
+pub use crate::also_zero::{AlsoZeroAt, Passage};
 use crate::model::ModelInfo;
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
@@ -100,21 +101,6 @@ pub struct MapResult {
     pub method: Method,
     /// What the user has to know about the linearisation (grazing, ties).
     pub warnings: Vec<Warning>,
-}
-
-/// How a function that should be zero together with a guard goes through the map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AlsoZeroAt {
-    /// Index into `info().transitions`.
-    pub transition: usize,
-    /// Index into the transition's `also_zero`.
-    pub index: usize,
-    /// Value at the start of the map.
-    pub start: f64,
-    /// Value just before the transition.
-    pub end: f64,
-    /// Time derivative there; 0 where the function only touches zero.
-    pub rate: f64,
 }
 
 /// A transition that fired.
@@ -235,6 +221,11 @@ pub enum RequestError {
     /// The explicit method was asked for where there is no explicit flow.
     #[error("model `{0}` has a mass matrix, which the explicit method cannot treat; take `radau5` or `radau3`")]
     NoExplicitFlow(&'static str),
+    /// A method that is compiled in for models with a mass matrix only.
+    #[error(
+        "model `{0}` has no mass matrix, and for such models there is no `radau3`; take `radau5` to check the explicit method"
+    )]
+    NoMassMatrix(&'static str),
     /// The model has no section, so it has no return map.
     #[error("model `{0}` has no [section], so it has no return map")]
     NoSection(&'static str),

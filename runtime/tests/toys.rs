@@ -5,7 +5,7 @@
 mod common;
 
 use approx::assert_abs_diff_eq;
-use common::toys::{BALL, CHATTER, DIP, DOMAIN, FORCED, JUMP, PILING, PULSE, TWINS, WHEEL};
+use common::toys::{BALL, CHATTER, DIP, DOMAIN, FALLING, FORCED, JUMP, PILING, PULSE, TWINS, WHEEL};
 use common::{check_derivatives, completed, request, stopped};
 use gaitc_runtime::orbit::{GaitRequest, GaitStatus, find_gait};
 use gaitc_runtime::return_map::{Accuracy, MapRequest, RequestError, ReturnMap, Sensitivity, StopReason, Warning};
@@ -39,6 +39,32 @@ fn bouncing_ball_has_its_closed_forms() {
     let three = completed(&BALL, &three);
     assert_abs_diff_eq!(three.jacobian[(0, 0)], e * e * e, epsilon = 1e-13);
     assert_eq!(three.events.len(), 3);
+}
+
+/// z is the speed just before an impact: z+ = e z, or z where the impact is slow, and the flight takes 2 e |z| / g.
+#[test]
+fn a_map_may_begin_before_its_transition() {
+    let (g, e) = (9.81, 0.8);
+    for (v, kept) in [(-3.0, e), (-0.5, 1.0)] {
+        let (z, p, memory) = ([v], [g, e], [0.0]);
+        let ask = MapRequest { measures: true, memory: &memory, ..request(&z, &p, ALL) };
+        let r = completed(&FALLING, &ask);
+        assert_abs_diff_eq!(r.coordinates[0], kept * v, epsilon = 1e-14);
+        assert_eq!(r.state.as_slice(), [0.0, v]);
+        let by_restitution = if kept == e { v } else { 0.0 };
+        for (column, exact) in [kept, 0.0, by_restitution].iter().enumerate() {
+            assert_abs_diff_eq!(r.jacobian[(0, column)], exact, epsilon = 1e-13);
+        }
+        for (value, exact) in r.measures.iter().zip([-kept * v, kept * v, -2.0 * kept * v / g]) {
+            assert_abs_diff_eq!(*value, exact, epsilon = 1e-13);
+        }
+        assert_eq!(r.events.len(), 1);
+        check_derivatives(&FALLING, &MapRequest { measures: true, ..ask }, &[0, 1], 1e-10);
+        let two = completed(&FALLING, &MapRequest { period: 2, ..ask });
+        let second = if kept * v < -1.0 { e } else { 1.0 };
+        assert_abs_diff_eq!(two.coordinates[0], kept * second * v, epsilon = 1e-13);
+        assert_abs_diff_eq!(two.jacobian[(0, 0)], kept * second, epsilon = 1e-13);
+    }
 }
 
 #[test]

@@ -7,43 +7,10 @@
 use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::{format_number, format_quantity, format_si};
 use gaitc_compiler::ir::{AlsoZero, Model, Transition};
-use gaitc_runtime::return_map::{AlsoZeroAt, Event, MapResult};
+use gaitc_runtime::return_map::{AlsoZeroAt, Event, MapResult, Passage};
 use serde_json::{Value, json};
 
 use super::output;
-
-/// A function only touches zero when its rate there, kept up for the whole map, would change it by less than this
-/// fraction of what the map changes it by.
-const TOUCHING: f64 = 1e-6;
-/// A value within this fraction of the function's size is zero.
-const ZERO: f64 = 1e-6;
-
-/// How a function behaves at the moment when it should be zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Passage {
-    /// It is not zero.
-    NotZero,
-    /// It is zero, and its rate too.
-    Touches,
-    /// It is zero, and its rate is not.
-    Crosses,
-}
-
-impl Passage {
-    fn of(at: &AlsoZeroAt, duration: f64) -> Self {
-        let change = (at.start - at.end).abs();
-        let swing = at.rate.abs() * duration;
-        let size = at.start.abs().max(change).max(swing);
-        // Written so that what is no number counts as not zero.
-        if !(at.end.abs() <= ZERO * size || at.end == 0.0) {
-            Self::NotZero
-        } else if swing <= TOUCHING * change {
-            Self::Touches
-        } else {
-            Self::Crosses
-        }
-    }
-}
 
 /// The guards of one map.
 pub(super) struct Guards<'a> {
@@ -85,7 +52,7 @@ impl Guards<'_> {
     /// The functions that vanish with the section's guard.
     pub(super) fn also_zero_json(&self) -> Value {
         let one = |at: &AlsoZeroAt| {
-            let passage = Passage::of(at, self.map.duration);
+            let passage = at.passage(self.map.duration);
             json!({
                 "transition": self.name(at.transition),
                 "expression": self.also_zero(at).map_or("?", |zero| &zero.text),
@@ -131,7 +98,7 @@ impl Guards<'_> {
     fn passage(&self, at: &AlsoZeroAt) -> Vec<String> {
         let (text, dimension) =
             self.also_zero(at).map_or(("?", Dimension::NONE), |zero| (zero.text.as_str(), zero.dimension));
-        let says = match Passage::of(at, self.map.duration) {
+        let says = match at.passage(self.map.duration) {
             Passage::NotZero => format!("is not zero there, but {}", format_si(at.end, dimension)),
             Passage::Touches => {
                 format!("only touches zero (rate {}): it could not serve as guard", rate(at.rate, dimension))
@@ -163,30 +130,5 @@ pub(super) fn rate(value: f64, dimension: Dimension) -> String {
     match dimension.div(Dimension::TIME) {
         Some(dimension) => format_si(value, dimension),
         None => format!("{} (SI)", format_number(value)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{AlsoZeroAt, Passage};
-
-    fn passage(start: f64, end: f64, rate: f64) -> Passage {
-        Passage::of(&AlsoZeroAt { transition: 0, index: 0, start, end, rate }, 0.5)
-    }
-
-    #[test]
-    fn a_function_touches_where_it_is_zero_with_its_rate() {
-        assert_eq!(passage(0.13, 1e-17, -3e-12), Passage::Touches);
-        assert_eq!(passage(0.13, 0.0, 0.0), Passage::Touches);
-        assert_eq!(passage(0.13, 1e-17, -1e-6), Passage::Crosses);
-        // Up and down again.
-        assert_eq!(passage(0.0, 1e-14, -2.0), Passage::Crosses);
-    }
-
-    #[test]
-    fn a_function_that_is_not_zero_neither_touches_nor_crosses() {
-        assert_eq!(passage(0.13, 1e-3, -3e-12), Passage::NotZero);
-        assert_eq!(passage(0.13, 0.13, 0.0), Passage::NotZero);
-        assert_eq!(passage(0.13, f64::NAN, 0.0), Passage::NotZero);
     }
 }

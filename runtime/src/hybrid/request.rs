@@ -19,6 +19,9 @@ pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Resul
     if request.accuracy.method == Method::Explicit && !info.explicit {
         return Err(RequestError::NoExplicitFlow(info.name));
     }
+    if request.accuracy.method == Method::Radau3 && info.explicit {
+        return Err(RequestError::NoMassMatrix(info.name));
+    }
     Ok(section)
 }
 

@@ -34,35 +34,42 @@ impl<const N: usize, const Q: usize, const C: usize> Bundle<N, Q, C> {
     pub const ZERO: Self = Self { x: [0.0; N], q: [0.0; Q], dx: [[0.0; N]; C], dq: [[0.0; Q]; C] };
 }
 
-#[inline(always)]
-fn combine<const S: usize, const L: usize>(
-    base: &[f64; L],
-    h: f64,
-    weights: &[f64; S],
-    stages: [&[f64; L]; S],
-) -> [f64; L] {
-    let mut result = [0.0; L];
-    for i in 0..L {
-        let mut sum = 0.0;
-        for s in 0..S {
-            sum += weights[s] * stages[s][i];
-        }
-        result[i] = base[i] + h * sum;
-    }
-    result
-}
-
 impl<const N: usize, const Q: usize, const C: usize> OdeState for Bundle<N, Q, C> {
     const ZERO: Self = Bundle::ZERO;
 
     #[inline(always)]
     fn advance<const S: usize>(&self, h: f64, weights: [f64; S], stages: [&Self; S]) -> Self {
-        let mut result = Self::ZERO;
-        result.x = combine(&self.x, h, &weights, stages.map(|s| &s.x));
-        result.q = combine(&self.q, h, &weights, stages.map(|s| &s.q));
+        // Plain loops: closures and array adapters would be compiled once for each method, model and width.
+        let mut result = *self;
+        for i in 0..N {
+            let mut sum = 0.0;
+            for s in 0..S {
+                sum += weights[s] * stages[s].x[i];
+            }
+            result.x[i] += h * sum;
+        }
+        for i in 0..Q {
+            let mut sum = 0.0;
+            for s in 0..S {
+                sum += weights[s] * stages[s].q[i];
+            }
+            result.q[i] += h * sum;
+        }
         for c in 0..C {
-            result.dx[c] = combine(&self.dx[c], h, &weights, stages.map(|s| &s.dx[c]));
-            result.dq[c] = combine(&self.dq[c], h, &weights, stages.map(|s| &s.dq[c]));
+            for i in 0..N {
+                let mut sum = 0.0;
+                for s in 0..S {
+                    sum += weights[s] * stages[s].dx[c][i];
+                }
+                result.dx[c][i] += h * sum;
+            }
+            for i in 0..Q {
+                let mut sum = 0.0;
+                for s in 0..S {
+                    sum += weights[s] * stages[s].dq[c][i];
+                }
+                result.dq[c][i] += h * sum;
+            }
         }
         result
     }

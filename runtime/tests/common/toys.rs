@@ -79,6 +79,49 @@ toy!(
 );
 
 toy!(
+    /// The ball once more, with the section just before the impact; the impact also counts in memory, and a slow one
+    /// loses nothing, by a switch. Parameters g, e.
+    FALLING: Falling, 2, 2, 0,
+    ModelInfo {
+        name: "falling",
+        parameters: &[quantity("g"), quantity("e")],
+        states: &[quantity("y"), quantity("v")],
+        memory: &["n"],
+        modes: SWITCHED,
+        transitions: &[self_transition("impact", Direction::Falling)],
+        switches: &["v < -1"],
+        coordinates: &[1],
+        section: Some(Section::Before(0)),
+        functionals: &[Functional::Start(1), Functional::End(1), Functional::Duration],
+        measures: &[quantity("start"), quantity("end"), quantity("duration")],
+        ..BLANK
+    },
+    {
+        fn flow<S: Scalar>(_: usize, x: &[S; 2], env: &Env<'_, S, 2>) -> [S; 2] {
+            [x[1], -env.p[0]]
+        }
+        fn switch<S: Scalar>(_: usize, x: &[S; 2], _: &Env<'_, S, 2>) -> S {
+            c::<S>(-1.0) - x[1]
+        }
+        fn guard<S: Scalar>(_: usize, x: &[S; 2], _: &Env<'_, S, 2>) -> S {
+            x[0]
+        }
+        fn reset<S: Scalar>(_: usize, x: &[S; 2], env: &Env<'_, S, 2>, memory: &mut [S]) -> [S; 2] {
+            let first = memory[0] + c(1.0);
+            memory[0] = first;
+            // A fast impact leaves e, a slow one all of the speed; n is 1 in every map.
+            [c(0.0), -(S::select(env.branch[0], env.p[1], c(1.0)) * x[1] * first)]
+        }
+        fn embed<S: Scalar>(z: &[S], _: &[S; 2]) -> [S; 2] {
+            [c(0.0), z[0]]
+        }
+        fn observable<S: Scalar>(_: usize, _: usize, x: &[S; 2], _: &Env<'_, S, 2>) -> S {
+            x[1]
+        }
+    }
+);
+
+toy!(
     /// The ball again, but its section is a shelf that it never reaches: impacts pile up. Parameters g, e.
     PILING: Piling, 2, 2, 0,
     ModelInfo {
