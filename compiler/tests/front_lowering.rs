@@ -5,7 +5,7 @@ use gaitc_compiler::diagnostic::render;
 use gaitc_compiler::front::parse_text;
 use gaitc_compiler::ir::canonical::fingerprint;
 use gaitc_compiler::ir::eval::{Environment, value};
-use gaitc_compiler::ir::{FunctionalKind, Model, Node, NodeId, Sense, Symbol};
+use gaitc_compiler::ir::{Direction, FunctionalKind, Model, Node, NodeId, Sense, Symbol};
 use std::path::Path;
 
 /// A node as text.
@@ -203,11 +203,31 @@ fn sections_embed_and_mirror() {
     let model = model(&tables, "0");
     assert_eq!(show(&model, model.transitions[0].memory_reset[0]), "select(s1, add(mul(2, n), 1), neg(n))");
     let section = model.section.as_ref().unwrap();
-    assert_eq!((section.after, &*section.coordinates, &*section.start), (0, &[1][..], &[10.0][..]));
+    assert_eq!(
+        (section.transition, section.before, &*section.coordinates, &*section.start),
+        (0, false, &[1][..], &[10.0][..])
+    );
     let embed: Vec<_> = section.embed.iter().map(|&node| show(&model, node)).collect();
     assert_eq!(embed, ["choose(sub(a, 1), a, 1)", "v"]);
     let symmetry: Vec<_> = section.symmetry.as_ref().unwrap().iter().map(|&node| show(&model, node)).collect();
     assert_eq!(symmetry, ["x", "neg(v)"]);
+}
+
+#[test]
+fn sections_stand_before_transitions_and_on_surfaces() {
+    let section = "coordinates = [\"v\"]\nembed = { x = \"a\" }\nstart = { v = \"1 m/s\" }\n";
+    let before = model(&format!("{STEP}[section]\nbefore = \"step\"\n{section}"), "0");
+    let at = before.section.as_ref().unwrap();
+    assert_eq!((at.transition, at.before, at.mode(&before.transitions)), (0, true, Some(0)));
+    let surface = "[surfaces.top]\nmode = \"go\"\nguard = \"x - a\"\ndirection = \"rising\"\n";
+    let on = model(&format!("{STEP}{surface}[section]\nat = \"top\"\n{section}"), "0");
+    let at = on.section.as_ref().unwrap();
+    assert_eq!((at.transition, at.before), (1, false));
+    let top = &on.transitions[1];
+    assert_eq!((top.name.as_str(), top.surface, top.from, top.to, top.when), ("top", true, 0, 0, None));
+    assert_eq!((show(&on, top.guard).as_str(), top.direction), ("sub(x, a)", Direction::Rising));
+    let kept: Vec<_> = top.reset.iter().map(|&node| show(&on, node)).collect();
+    assert_eq!(kept, ["x", "v"]);
 }
 
 #[test]

@@ -93,7 +93,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     ],
     switches: &[],
     coordinates: &[0, 1],
-    section_after: ::core::option::Option::Some(0),
+    section: ::core::option::Option::Some(model::Section::After(0)),
     symmetric: false,
     functionals: &[
         model::Functional::Maximum(0),

@@ -94,7 +94,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     ],
     switches: &["x >= 0", "max(x, Y)", "min(x, a)", "Y >= a"],
     coordinates: &[2, 0],
-    section_after: ::core::option::Option::Some(0),
+    section: ::core::option::Option::Some(model::Section::After(0)),
     symmetric: true,
     functionals: &[
         model::Functional::Integral(0),

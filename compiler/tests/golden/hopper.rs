@@ -105,7 +105,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     ],
     switches: &["n > 0", "abs(v)", "abs(u)"],
     coordinates: &[1],
-    section_after: ::core::option::Option::Some(2),
+    section: ::core::option::Option::Some(model::Section::After(2)),
     symmetric: false,
     functionals: &[
         model::Functional::Maximum(0),

@@ -86,7 +86,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     ],
     switches: &["tau <= pi/omega", "abs(v_x)", "abs(rho_a)", "max(power, 0)"],
     coordinates: &[0, 1],
-    section_after: ::core::option::Option::Some(0),
+    section: ::core::option::Option::Some(model::Section::After(0)),
     symmetric: true,
     functionals: &[
         model::Functional::Mean(0),

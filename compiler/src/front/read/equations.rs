@@ -125,7 +125,9 @@ pub(super) fn surfaces(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Surf
 fn anchor(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Anchor> {
     let keys: [(&str, fn(Text) -> Anchor); 3] =
         [("after", Anchor::After), ("before", Anchor::Before), ("at", Anchor::At)];
-    let mut given = keys.iter().filter_map(|(key, anchor)| Some((fields.get(key)?, anchor)));
+    let mut given: Vec<_> = keys.iter().filter_map(|(key, anchor)| Some((fields.get(key)?, anchor))).collect();
+    given.sort_by_key(|(entry, _)| entry.key_span.start);
+    let mut given = given.into_iter();
     let Some((entry, anchor)) = given.next() else {
         let message = format!("{} does not say where it stands", fields.what);
         let help = "add `after = \"TRANSITION\"`, `before = \"TRANSITION\"` or `at = \"SURFACE\"`";
