@@ -81,8 +81,11 @@ pub struct MapResult {
     pub coordinates: DVector<f64>,
     /// Derivative of P(z), d x c.
     pub jacobian: DMatrix<f64>,
-    /// Full state just after the section's transition at the start of the map.
+    /// Full state on the section at the start of the map, as the embedding makes it.
     pub state: DVector<f64>,
+    /// Full state on the section at its end, symmetry applied: on a gait the same, but for states that only count how far the
+    /// machine has come.
+    pub end: DVector<f64>,
     /// Duration (s).
     pub duration: f64,
     /// Derivative of the duration, length c.

@@ -3,6 +3,7 @@
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
 use super::{InputError, Outcome, inputs, output};
+use crate::closing::open_states;
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
@@ -138,6 +139,7 @@ impl Report<'_> {
         let mut all = self.warnings.clone();
         if let Some(gait) = self.gait() {
             all.extend(gait.map.warnings.iter().map(|w| self.warning(w)));
+            all.extend(open_states(&self.loaded.spec, gait.map.state.as_slice(), gait.map.end.as_slice()));
             let measures = self.loaded.spec.measures.iter().zip(gait.map.measures.iter());
             let undefined = measures.filter(|(_, value)| !value.is_finite());
             all.extend(

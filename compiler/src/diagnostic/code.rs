@@ -72,10 +72,12 @@ codes! {
     Mass "E0410" "a mass matrix that is singular everywhere";
     NoReturn "E0411" "no run comes back to the section";
     ClockOnSection "E0412" "the time since the last transition is not known on the section";
+    OffSection "E0413" "the embedding does not lie on the section";
     Unused "W0001" "something is defined and never used";
     ZeroDerivative "W0002" "a derivative that is always zero";
     Unreachable "W0003" "a mode that no run reaches";
     NoInvolution "W0004" "a symmetry that is not its own inverse";
+    NotInvariant "W0005" "the model is not invariant under its symmetry";
 }
 
 impl std::fmt::Display for Code {

@@ -20,6 +20,17 @@ pub(crate) struct Coordinates<const N: usize, const C: usize> {
     pub(crate) dz: [[f64; N]; C],
 }
 
+/// Where a map has led.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reached<const N: usize, const C: usize> {
+    /// The coordinates.
+    pub(crate) at: Coordinates<N, C>,
+    /// The full state at its start ...
+    pub(crate) first: [f64; N],
+    /// ... and at its end, symmetry applied.
+    pub(crate) end: [f64; N],
+}
+
 impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
     Run<'_, X, M, R, N, P, Q, W, C>
 where
@@ -27,14 +38,14 @@ where
     M: Model<N, P, Q>,
     R: Carried<M, N, P, Q, W, C>,
 {
-    /// Runs the whole map from the section coordinates `at`; returns where it ends and the full state at its start.
+    /// Runs the whole map from the section coordinates `at`; returns where it ends.
     pub(crate) fn map(
         &mut self,
         request: &MapRequest<'_>,
         section: Section,
         mut at: Coordinates<N, C>,
-    ) -> Result<(Coordinates<N, C>, [f64; N]), StopReason> {
-        let mut first = [0.0; N];
+    ) -> Result<Reached<N, C>, StopReason> {
+        let (mut first, mut end) = ([0.0; N], [0.0; N]);
         for turn in 0..request.period {
             self.embed(&at);
             if turn == 0 {
@@ -48,9 +59,9 @@ where
             self.check_finite()?;
             self.begin(turn == 0 && request.measures)?;
             self.run_to_section(section.transition(), turn + 1 == request.period && request.measures)?;
-            at = self.project();
+            (at, end) = self.project();
         }
-        Ok((at, first))
+        Ok(Reached { at, first, end })
     }
 
     /// Enters the mode in which the map begins; from a section before a transition by that transition's reset.
@@ -158,8 +169,8 @@ where
         }
     }
 
-    /// Applies the symmetry to the state on the section and takes its coordinates.
-    fn project(&self) -> Coordinates<N, C> {
+    /// Applies the symmetry to the state on the section and takes its coordinates; that state, too.
+    fn project(&self) -> (Coordinates<N, C>, [f64; N]) {
         let (mut x, mut dx) = match self.ahead {
             Some(_) => self.on_section,
             None => (self.step.start.x, self.step.start.dx),
@@ -188,7 +199,7 @@ where
                 result.dz[c][k] = dx[c][i];
             }
         }
-        result
+        (result, x)
     }
 
     /// All functionals, at the end of the map.

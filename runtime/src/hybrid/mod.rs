@@ -21,7 +21,7 @@ use crate::return_map::{
 };
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
-use map::Coordinates;
+use map::{Coordinates, Reached};
 use nalgebra::{DMatrix, DVector};
 use run::Run;
 
@@ -211,7 +211,7 @@ where
     let functionals = Functionals::new(M::INFO, request.measures);
     let mut run = Run::<X, M, R, N, P, Q, W, C>::new(request.accuracy, &p, (dp, columns.width), functionals);
     match run.map(request, section, at) {
-        Ok((end, state)) => Ok(gather(&run, request, columns, &end, &state)),
+        Ok(reached) => Ok(gather(&run, request, columns, &reached)),
         Err(reason) => {
             let stop = Stop { reason, time: run.time(), state: run.step.start.x.to_vec() };
             Err(Failure { stop, stiff: run.stiff() })
@@ -223,8 +223,7 @@ fn gather<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usiz
     run: &Run<'_, X, M, R, N, P, Q, W, C>,
     request: &MapRequest<'_>,
     columns: Columns<'_>,
-    end: &Coordinates<N, C>,
-    state: &[f64; N],
+    reached: &Reached<N, C>,
 ) -> MapResult
 where
     X: integrate::Method,
@@ -240,9 +239,10 @@ where
         (DVector::zeros(0), DMatrix::zeros(0, width))
     };
     MapResult {
-        coordinates: DVector::from_fn(d, |i, _| end.z[i]),
-        jacobian: DMatrix::from_fn(d, width, |i, c| end.dz[c][i]),
-        state: DVector::from_column_slice(state),
+        coordinates: DVector::from_fn(d, |i, _| reached.at.z[i]),
+        jacobian: DMatrix::from_fn(d, width, |i, c| reached.at.dz[c][i]),
+        state: DVector::from_column_slice(&reached.first),
+        end: DVector::from_column_slice(&reached.end),
         duration: duration.value,
         duration_gradient: DVector::from_fn(width, |c, _| duration.gradient[c]),
         measures,

@@ -160,6 +160,7 @@ impl ReturnMap for Closed {
         let values = |x: &[Dual]| DVector::from_iterator(x.len(), x.iter().map(|x| x.v));
         let slopes = |x: &[Dual]| DMatrix::from_fn(x.len(), columns.len(), |i, j| x[i].d[columns[j]]);
         Ok(MapOutcome::Completed(Box::new(MapResult {
+            end: DVector::zeros(0),
             coordinates: values(&next),
             jacobian: slopes(&next),
             state: DVector::from_column_slice(request.coordinates),

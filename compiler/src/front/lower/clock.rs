@@ -26,7 +26,7 @@ pub(super) fn check(spec: &Spec, model: &Model, diagnostics: &mut Vec<Diagnostic
     else {
         return;
     };
-    if depends(model, &resets(transition)) {
+    if depends_on_tau(model, &resets(transition)) {
         let span = item.value.reset.iter().find_map(|reset| mentions(&reset.value)).unwrap_or(item.span);
         let message = format!("the reset of `{}` uses `tau`, which is not known on the section before it", item.name);
         report(message, span, (name.span, "the section"), diagnostics);
@@ -50,7 +50,7 @@ struct Use {
 fn uses_in_mode(spec: &Spec, model: &Model, index: usize) -> Option<Use> {
     let (mode, item) = (model.modes.get(index)?, spec.modes.get(index)?);
     let rows = mode.mass.iter().flatten().flatten();
-    if depends(model, &mode.flow.iter().chain(rows).copied().collect::<Vec<_>>()) {
+    if depends_on_tau(model, &mode.flow.iter().chain(rows).copied().collect::<Vec<_>>()) {
         let span = item.value.flow.iter().find_map(|flow| mentions(&flow.value)).unwrap_or(item.span);
         return Some(Use { text: format!("the motion in mode `{}`", item.name), span });
     }
@@ -58,7 +58,7 @@ fn uses_in_mode(spec: &Spec, model: &Model, index: usize) -> Option<Use> {
     for (transition, item) in leaving {
         let mut roots = resets(transition);
         roots.extend(transition.when.into_iter().chain([transition.guard]));
-        if depends(model, &roots) {
+        if depends_on_tau(model, &roots) {
             let equations = item.value.guard.iter().chain(&item.value.when);
             let equations = equations.chain(item.value.reset.iter().map(|reset| &reset.value));
             let span = equations.into_iter().find_map(mentions).unwrap_or(item.span);
@@ -66,7 +66,7 @@ fn uses_in_mode(spec: &Spec, model: &Model, index: usize) -> Option<Use> {
         }
     }
     let measured: Vec<NodeId> = model.functionals.iter().map(|functional| functional.expr).collect();
-    if !depends(model, &measured) {
+    if !depends_on_tau(model, &measured) {
         return None;
     }
     let equations = spec.measures.iter().filter_map(|item| item.value.expr.as_ref());
@@ -79,7 +79,7 @@ fn resets(transition: &Transition) -> Vec<NodeId> {
 }
 
 /// Whether any of `roots` depends on tau, through conditions too.
-fn depends(model: &Model, roots: &[NodeId]) -> bool {
+pub(super) fn depends_on_tau(model: &Model, roots: &[NodeId]) -> bool {
     let (mut open, mut seen, mut found) = (roots.to_vec(), BTreeSet::new(), false);
     while let Some(root) = open.pop() {
         model.graph.visit(&[root], |_, node| match node {

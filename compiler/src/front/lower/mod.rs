@@ -12,13 +12,16 @@ mod dynamics;
 mod expr;
 mod fixed;
 mod fold;
+mod invariance;
 mod involution;
 mod lowering;
 mod mass;
 mod measures;
+mod on_section;
 mod order;
 mod problems;
 mod reach;
+mod sample;
 mod scope;
 mod section;
 mod surfaces;
@@ -59,7 +62,9 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     if !diagnostics.iter().any(Diagnostic::is_error) {
         reach::check(spec, &model, diagnostics);
         clock::check(spec, &model, diagnostics);
+        on_section::check(spec, &model, diagnostics);
         involution::check(spec, &model, diagnostics);
+        invariance::check(spec, &model, diagnostics);
         unused::check(spec, diagnostics);
     }
     model

@@ -123,9 +123,9 @@ pub(super) fn surfaces(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Surf
 
 /// `after = "step"`, `before = "step"` or `at = "apex"`.
 fn anchor(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Anchor> {
-    let keys: [(&str, fn(Text) -> Anchor); 3] =
-        [("after", Anchor::After), ("before", Anchor::Before), ("at", Anchor::At)];
-    let mut given: Vec<_> = keys.iter().filter_map(|(key, anchor)| Some((fields.get(key)?, anchor))).collect();
+    let anchors = [Anchor::After as fn(Text) -> Anchor, Anchor::Before, Anchor::At];
+    let keys = ["after", "before", "at"].into_iter().zip(anchors);
+    let mut given: Vec<_> = keys.filter_map(|(key, anchor)| Some((fields.get(key)?, anchor))).collect();
     given.sort_by_key(|(entry, _)| entry.key_span.start);
     let mut given = given.into_iter();
     let Some((entry, anchor)) = given.next() else {
