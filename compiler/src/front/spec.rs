@@ -90,6 +90,7 @@ pub(crate) struct Memory {
 pub(crate) struct Function {
     pub(crate) arguments: Vec<Text>,
     pub(crate) body: Option<Equation>,
+    pub(crate) doc: String,
 }
 
 #[derive(Clone, Debug)]
@@ -97,6 +98,7 @@ pub(crate) struct Mode {
     pub(crate) flow: Vec<Named<Equation>>,
     /// Rows of the mass matrix, each by the state whose flow it belongs to; none is the identity.
     pub(crate) mass: Vec<Named<MassRow>>,
+    pub(crate) doc: String,
 }
 
 /// What stands at a row of a mass matrix.
@@ -118,6 +120,7 @@ pub(crate) struct Transition {
     pub(crate) reset: Vec<Named<Equation>>,
     /// Functions that vanish together with the guard, and the place of their key.
     pub(crate) also_zero: Option<(Span, Vec<Equation>)>,
+    pub(crate) doc: String,
 }
 
 #[derive(Clone, Debug)]
