@@ -4,6 +4,7 @@
 //! parsed (`read`, giving `spec`), parts taken in (`parts`), names resolved, dimensions checked and expressions lowered (`lower`). All
 //! problems of a file are reported in one go; what depends on something broken is silent.
 
+mod check;
 mod constant;
 mod document;
 pub mod flags;
@@ -23,6 +24,7 @@ pub mod units;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Model;
 use crate::source::{FileId, SourceMap, Span};
+pub use check::{Checked, check_file};
 pub use format::{format_number, format_quantity, format_si, in_unit};
 pub use names::suggest;
 pub use parts::Library;
