@@ -1,7 +1,7 @@
 //! Formulas in LaTeX (amsmath): fractions, subscripts, partial derivatives, cases. No `|` and no `<` without a space
 //! behind it, so that a formula may stand in a cell of a Markdown table.
 
-use super::level::{Level, Piece, branches, derivative, terms};
+use super::level::{Level, Piece, branches, derivative, negated, terms};
 use super::literal::{literal, number_latex, unit_latex};
 use super::symbol::Symbols;
 use crate::front::syntax::{Arithmetic, Call, Comparison, Expr, ExprKind, Logic};
@@ -59,7 +59,7 @@ impl Latex<'_> {
             ExprKind::Name(name) => (self.symbols.get(name).latex(), Level::Atom),
             ExprKind::Neg(a) => {
                 let inner = self.behind(a, Level::Differential);
-                (format!("-{inner}"), self.piece(a).1.clamp(Level::Differential, Level::Product))
+                (format!("-{inner}"), negated(self.piece(a).1))
             }
             ExprKind::Not(a) => (format!("\\lnot {}", self.at(a, Level::Atom)), Level::Not),
             ExprKind::Arithmetic(operator, a, b) => self.arithmetic(*operator, a, b),

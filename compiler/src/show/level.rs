@@ -22,6 +22,11 @@ pub(super) enum Level {
 /// A piece and how tightly it holds together.
 pub(super) type Piece = (String, Level);
 
+/// The level of something behind a minus: what is looser than a product stands in parentheses already.
+pub(super) fn negated(level: Level) -> Level {
+    if level == Level::Differential { level } else { Level::Product }
+}
+
 /// The terms of a sum in their order, each with whether it is subtracted.
 pub(super) fn terms(expr: &Expr) -> Vec<(bool, &Expr)> {
     let mut right = Vec::new();

@@ -14,7 +14,11 @@ pub(super) struct Literal {
 
 /// Reads off how a literal was written; where that is not to be seen (escapes in a string), its value in SI units.
 pub(super) fn literal(value: f64, unit: Option<Unit>, span: Span, sources: &SourceMap) -> Literal {
-    let written = sources.slice(span);
+    let mut written = sources.slice(span).trim();
+    // The place of an expression in parentheses is that of the parentheses.
+    while let Some(inner) = written.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
+        written = inner.trim();
+    }
     let is = |text: &str| text.parse() == Ok(value);
     let same = |text: &str| parse_unit(text).ok() == unit;
     let Some(unit) = unit else {

@@ -5,6 +5,8 @@
 
 mod collect;
 mod escape;
+#[cfg(test)]
+mod formula_tests;
 mod graph;
 mod latex;
 mod level;

@@ -3,7 +3,7 @@
 use super::escape::plain;
 use super::graph;
 use super::sheet::{Assignment, Problem, Sheet, Transition};
-use super::wrap::{table, wrapped};
+use super::wrap::{formula, table, wrapped};
 
 /// The whole page.
 pub(super) fn page(sheet: &Sheet) -> String {
@@ -56,7 +56,7 @@ fn indented(text: &str) -> String {
 fn equality(head: &str, left: &str, right: &str) -> String {
     let head = format!("{head}{left} = ");
     let hang = head.chars().count().min(30);
-    wrapped(&head, right, hang)
+    formula(&head, right, hang)
 }
 
 fn states(sheet: &Sheet) -> String {
@@ -110,9 +110,9 @@ fn definitions(sheet: &Sheet) -> String {
 fn transition(transition: &Transition) -> String {
     let mut body = doc(&transition.doc);
     body += &format!("  {} -> {}\n", transition.from, transition.to);
-    body += &wrapped("  when ", &graph::condition(transition), 7);
+    body += &formula("  when ", &graph::condition(transition), 7);
     for zero in &transition.also_zero {
-        body += &wrapped("  where also ", &format!("{} = 0", zero.text), 13);
+        body += &formula("  where also ", &format!("{} = 0", zero.text), 13);
     }
     for reset in &transition.reset {
         body += &equality("  ", &format!("{}⁺", reset.left.text), &reset.right.text);
@@ -155,12 +155,12 @@ fn measures(sheet: &Sheet) -> String {
 
 fn problem(problem: &Problem) -> String {
     let mut body = doc(&problem.doc);
-    body += &wrapped(&format!("  {} ", problem.sense), &problem.objective.text, 11);
+    body += &formula(&format!("  {} ", problem.sense), &problem.objective.text, 11);
     for vary in &problem.vary {
         body += &format!("  over {} = {} .. {}\n", vary.name.text, vary.shown.0, vary.shown.1);
     }
     for constraint in &problem.subject_to {
-        body += &wrapped("  subject to ", &constraint.text, 13);
+        body += &formula("  subject to ", &constraint.text, 13);
     }
     body
 }

@@ -1,6 +1,6 @@
 //! Formulas for a terminal: `m·p_θ²/r`, with as few parentheses as the precedence of operators allows.
 
-use super::level::{Level, Piece, branches, derivative};
+use super::level::{Level, Piece, branches, derivative, negated};
 use super::literal::literal;
 use super::symbol::Symbols;
 use crate::front::syntax::{Arithmetic, Call, Comparison, Expr, ExprKind, Logic};
@@ -44,7 +44,7 @@ impl Plain<'_> {
             ExprKind::Name(name) => (self.symbols.get(name).text, Level::Atom),
             ExprKind::Neg(a) => {
                 let inner = self.behind(a, Level::Differential);
-                (format!("-{inner}"), self.piece(a).1.clamp(Level::Differential, Level::Product))
+                (format!("-{inner}"), negated(self.piece(a).1))
             }
             ExprKind::Not(a) => (format!("not {}", self.at(a, Level::Not)), Level::Not),
             ExprKind::Arithmetic(operator, a, b) => self.arithmetic(*operator, a, b),

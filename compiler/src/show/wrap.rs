@@ -26,6 +26,37 @@ pub(super) fn wrapped(head: &str, text: &str, hang: usize) -> String {
     out
 }
 
+/// A formula broken before an operator or behind a comma, outside of parentheses as long as what is inside fits.
+pub(super) fn formula(head: &str, text: &str, hang: usize) -> String {
+    wrapped(head, &held_together(text), hang).replace(HOLD, " ")
+}
+
+/// Stands for a space at which a line is not to be broken.
+const HOLD: char = '\u{1}';
+
+/// Longest piece of a formula that is held together.
+const PIECE: usize = 60;
+
+fn held_together(text: &str) -> String {
+    let (mut pieces, mut piece) = (Vec::new(), String::new());
+    let mut depth = 0_usize;
+    for word in text.split(' ') {
+        let operator = matches!(word, "+" | "-" | "<" | ">" | "≤" | "≥" | "and" | "or" | "if" | "else");
+        if depth == 0 && (operator || piece.ends_with(',')) && !piece.is_empty() {
+            pieces.push(std::mem::take(&mut piece));
+        }
+        if !piece.is_empty() {
+            piece.push(' ');
+        }
+        piece += word;
+        let (opened, closed) = (word.matches(['(', '[']).count(), word.matches([')', ']']).count());
+        depth = (depth + opened).saturating_sub(closed);
+    }
+    pieces.push(piece);
+    let hold = |piece: String| if piece.chars().count() > PIECE { piece } else { piece.replace(' ', "\u{1}") };
+    pieces.into_iter().map(hold).collect::<Vec<_>>().join(" ")
+}
+
 /// Rows in columns two spaces apart, indented by two; the last column is broken into lines.
 pub(super) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -65,6 +96,15 @@ fn gap(width: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn formulas_break_before_operators_outside_of_parentheses() {
+        assert_eq!(held_together("a + (b - c)·d - f(x, y)"), "a +\u{1}(b\u{1}-\u{1}c)·d -\u{1}f(x,\u{1}y)");
+        assert_eq!(held_together("a if x < 0, else b"), "a if\u{1}x <\u{1}0, else\u{1}b");
+        let long = format!("({})", ["a"; 40].join(" + "));
+        assert_eq!(held_together(&long), long);
+        assert_eq!(formula("x = ", &["(a + b)"; 30].join(" + "), 4).lines().count(), 4);
+    }
 
     #[test]
     fn lines_fit_and_hang() {
