@@ -29,7 +29,11 @@ pub(super) fn latex(text: &str) -> String {
             // Ligatures would make other characters of these.
             '-' | '\'' | ',' | '?' | '!' => out.extend(['{', c, '}']),
             '[' | ']' => out.extend(['{', c, '}']),
-            c if c.is_ascii() || matches!(c, 'À'..='ÿ') => out.push(c),
+            // Those of T1 and TS1.
+            '\u{ad}' => {}
+            c if c.is_ascii() || matches!(c, '¡'..='ÿ' | '–' | '—' | '‘' | '’' | '“' | '”' | '…') => {
+                out.push(c)
+            }
             c => out.push_str(&format!("\\gaitcchar{{{:04X}}}{{{c}}}", u32::from(c))),
         }
     }
