@@ -128,7 +128,7 @@ fn without_links(text: &str) -> String {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a failed unwrap fails the test
+#[allow(clippy::unwrap_used, clippy::panic)] // a failed unwrap fails the test
 mod tests {
     use super::*;
 

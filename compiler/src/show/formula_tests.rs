@@ -53,7 +53,7 @@ fn formulas_are_typeset() {
          r"2\,\left( \begin{cases} 1 & \text{if } a < b \\ 0 & \text{otherwise} \end{cases} \right)"),
         ("max(abs(a), sign(b))", "max(|a|, sign(b))", r"\max\left( \left\lvert a \right\rvert, \operatorname{sign}(b) \right)"),
         ("not a < b and (c > a or c > b)", "not a < b and (c > a or c > b)", r"\lnot (a < b) \land (c > a \lor c > b)"),
-        ("3 [m/s]*a", "3 [m/s]·a", r"3\,\mathrm{m}/\mathrm{s}\,a"),
+        ("3 [m/s]*a - 2 [1/s]", "3 [m/s]·a - 2 [1/s]", r"(3\,\mathrm{m}/\mathrm{s})\,a - 2/\mathrm{s}"),
         ("1e-3*a + 1.50", "1e-3·a + 1.50", r"1 \cdot 10^{-3}\,a + 1.50"),
         ("tau_stall*(1 - w/omega_nl)", "τ_stall·(1 - w/ω_nl)",
          r"\tau_{\mathrm{stall}} \cdot \left( 1 - \frac{w}{\omega_{\mathrm{nl}}} \right)"),

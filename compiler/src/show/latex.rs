@@ -2,7 +2,7 @@
 //! behind it, so that a formula may stand in a cell of a Markdown table.
 
 use super::level::{Level, Piece, branches, derivative, negated, terms};
-use super::literal::{literal, number_latex, unit_latex};
+use super::literal::{literal, number_latex, unit_latex, with_unit};
 use super::symbol::Symbols;
 use crate::front::syntax::{Arithmetic, Call, Comparison, Expr, ExprKind, Logic};
 use crate::source::SourceMap;
@@ -29,7 +29,11 @@ impl Latex<'_> {
             (_, true) => format!("- {}", self.behind(term, Level::Differential)),
             (_, false) => format!("+ {}", self.behind(term, Level::Sum)),
         };
-        terms(expr).into_iter().enumerate().map(term).collect()
+        let all = terms(expr);
+        if let [(_, one)] = all.as_slice() {
+            return vec![self.formula(one)];
+        }
+        all.into_iter().enumerate().map(term).collect()
     }
 
     /// A formula in a place that asks for a level.
@@ -38,10 +42,9 @@ impl Latex<'_> {
         if level < least { parentheses(&latex) } else { latex }
     }
 
-    /// One that follows an operator: it cannot begin with a minus.
+    /// One that follows an operator.
     fn behind(self, expr: &Expr, least: Level) -> String {
-        let (latex, level) = self.piece(expr);
-        if level < least || latex.starts_with('-') { parentheses(&latex) } else { latex }
+        following(self.piece(expr), least)
     }
 
     fn piece(self, expr: &Expr) -> Piece {
@@ -51,15 +54,21 @@ impl Latex<'_> {
                 let number = literal.number.map(|number| number_latex(&number));
                 let unit = literal.unit.map(|unit| unit_latex(&unit)).filter(|unit| !unit.is_empty());
                 match (number, unit) {
-                    (Some(number), Some(unit)) => (format!("{number}\\,{unit}"), Level::Product),
+                    // Behind a unit with a slash a further factor would seem to stand below it.
+                    (Some(number), Some(unit)) if unit.contains('/') => {
+                        (with_unit(&number, &unit), Level::Differential)
+                    }
+                    (Some(number), Some(unit)) => (with_unit(&number, &unit), Level::Product),
                     (Some(number), None) if number.contains("\\cdot") => (number, Level::Product),
                     (number, unit) => (number.or(unit).unwrap_or_default(), Level::Atom),
                 }
             }
             ExprKind::Name(name) => (self.symbols.get(name).latex(), Level::Atom),
             ExprKind::Neg(a) => {
-                let inner = self.behind(a, Level::Differential);
-                (format!("-{inner}"), negated(self.piece(a).1))
+                // Once: twice at each of many signs would never end.
+                let piece = self.piece(a);
+                let level = negated(piece.1);
+                (format!("-{}", following(piece, Level::Differential)), level)
             }
             ExprKind::Not(a) => (format!("\\lnot {}", self.at(a, Level::Atom)), Level::Not),
             ExprKind::Arithmetic(operator, a, b) => self.arithmetic(*operator, a, b),
@@ -179,6 +188,11 @@ impl Latex<'_> {
         let all: Vec<String> = call.arguments.iter().map(|argument| self.formula(argument)).collect();
         parentheses(&all.join(", "))
     }
+}
+
+/// A piece that follows an operator: it cannot begin with a minus.
+fn following((text, level): Piece, least: Level) -> String {
+    if level < least || text.starts_with('-') { parentheses(&text) } else { text }
 }
 
 /// What stands between two factors: space, or a point where space would be misread as a call or as one number.

@@ -113,7 +113,15 @@ pub(super) fn quantity_latex(shown: &str) -> String {
     let end = shown.find([' ', '%', '°']).unwrap_or(shown.len());
     let (number, unit) = (shown.get(..end).unwrap_or(""), unit_latex(shown.get(end..).unwrap_or("")));
     let number = number_latex(number);
-    if unit.is_empty() { number } else { format!("{number}\\,{unit}") }
+    if unit.is_empty() { number } else { with_unit(&number, &unit) }
+}
+
+/// A number and its unit, both in LaTeX; of the unit `1/s` the 1 is not written.
+pub(super) fn with_unit(number: &str, unit: &str) -> String {
+    match unit.strip_prefix("1/") {
+        Some(below) => format!("{number}/{below}"),
+        None => format!("{number}\\,{unit}"),
+    }
 }
 
 #[cfg(test)]
@@ -138,5 +146,6 @@ mod tests {
         assert_eq!(quantity_latex("-20 deg"), "-20\\,\\mathrm{deg}");
         assert_eq!(quantity_latex("1e-6 kg"), "1 \\cdot 10^{-6}\\,\\mathrm{kg}");
         assert_eq!(quantity_latex("0.95"), "0.95");
+        assert_eq!(quantity_latex("2 1/s"), "2/\\mathrm{s}");
     }
 }

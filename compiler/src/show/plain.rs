@@ -25,10 +25,9 @@ impl Plain<'_> {
         if level < least { format!("({text})") } else { text }
     }
 
-    /// One that follows an operator: it cannot begin with a minus.
+    /// One that follows an operator.
     fn behind(self, expr: &Expr, least: Level) -> String {
-        let (text, level) = self.piece(expr);
-        if level < least || text.starts_with('-') { format!("({text})") } else { text }
+        following(self.piece(expr), least)
     }
 
     fn piece(self, expr: &Expr) -> Piece {
@@ -43,8 +42,10 @@ impl Plain<'_> {
             }
             ExprKind::Name(name) => (self.symbols.get(name).text, Level::Atom),
             ExprKind::Neg(a) => {
-                let inner = self.behind(a, Level::Differential);
-                (format!("-{inner}"), negated(self.piece(a).1))
+                // Once: twice at each of many signs would never end.
+                let piece = self.piece(a);
+                let level = negated(piece.1);
+                (format!("-{}", following(piece, Level::Differential)), level)
             }
             ExprKind::Not(a) => (format!("not {}", self.at(a, Level::Not)), Level::Not),
             ExprKind::Arithmetic(operator, a, b) => self.arithmetic(*operator, a, b),
@@ -134,6 +135,11 @@ impl Plain<'_> {
         let all: Vec<String> = call.arguments.iter().map(|argument| self.at(argument, Level::Or)).collect();
         format!("({})", all.join(", "))
     }
+}
+
+/// A piece that follows an operator: it cannot begin with a minus.
+fn following((text, level): Piece, least: Level) -> String {
+    if level < least || text.starts_with('-') { format!("({text})") } else { text }
 }
 
 /// A whole number as superscript.
