@@ -3,7 +3,7 @@
 #![allow(clippy::panic)] // a test may fail loudly
 
 /// A LaTeX document: braces, environments and formulas are closed, no special character stands where it has no meaning.
-pub fn check_latex(page: &str) {
+pub(crate) fn check_latex(page: &str) {
     let (preamble, body) = page.split_once("\\begin{document}\n").expect("a document begins");
     assert!(preamble.starts_with("\\documentclass"));
     let body = body.strip_suffix("\\end{document}\n").expect("the document ends");
@@ -11,13 +11,13 @@ pub fn check_latex(page: &str) {
 }
 
 /// A formula.
-pub fn check_math(latex: &str) {
+pub(crate) fn check_math(latex: &str) {
     assert!(!latex.contains('$') && !latex.contains('#') && !latex.contains("\\["), "{latex}");
     Reader::read(latex, true);
 }
 
 /// Markdown: formulas are closed and read as LaTeX, tables have as many cells in each row, nothing is HTML.
-pub fn check_markdown(page: &str) {
+pub(crate) fn check_markdown(page: &str) {
     let mut columns = None;
     let mut display: Option<String> = None;
     for line in page.lines() {
@@ -72,7 +72,7 @@ fn inline(line: &str) {
 }
 
 /// A DOT file as `show` writes it: quoted names and attributes, one statement a line.
-pub fn check_dot(graph: &str) {
+pub(crate) fn check_dot(graph: &str) {
     let graph = graph.strip_suffix("}\n").expect("the graph is closed");
     let (head, body) = graph.split_once('\n').expect("lines");
     assert_eq!(words(head), ["digraph", "S", "{"]);
@@ -162,11 +162,9 @@ impl<'a> Reader<'a> {
                 self.open.push("$");
                 self.math = true;
             }
-            '_' | '^' if self.math => {
-                if !self.rest.starts_with(|c: char| c == '{' || c == '\\' || c.is_ascii_alphanumeric()) {
-                    self.refuse("nothing to raise or lower");
-                }
-            }
+            '_' | '^'
+                if self.math && self.rest.starts_with(|c: char| "{\\".contains(c) || c.is_ascii_alphanumeric()) => {}
+            '_' | '^' if self.math => self.refuse("nothing to raise or lower"),
             '&' if self.open.iter().any(|open| matches!(*open, "aligned" | "cases" | "longtable")) => {}
             '$' | '_' | '^' | '&' | '#' | '%' | '~' | '|' | '<' | '>' | '"' if !self.math => {
                 self.refuse("a character with a meaning")
