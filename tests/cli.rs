@@ -52,7 +52,7 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["verify", "prescribed_length", "--samples", "0"], &["--samples"]),
     (&["gait", "prescribed_length", "--set", "psi=20 deg", "--set", "psi=30 deg"], &["`psi` is given twice"]),
     (&["check", "no/such/file.toml"], &["no/such/file.toml"]),
-    (&["check", "specs"], &["specs", "not a regular file"]),
+    (&["check", "src/cli"], &["src/cli", "no file below this folder"]),
     (&["frobnicate"], &["frobnicate"]),
 ];
 

@@ -3,7 +3,8 @@
 
 use gaitc_compiler::diagnostic::render;
 use gaitc_compiler::front::flags::{parse_constraint, parse_quantity, parse_range};
-use gaitc_compiler::front::{Library, parse_text, parse_with};
+use gaitc_compiler::front::{Library, check_file, parse_text, parse_with};
+use gaitc_compiler::show::Sheet;
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -125,6 +126,13 @@ fn check_with(text: &str, parts: &[(&str, &str)]) -> Result<(), TestCaseError> {
     prop_assert!(parsed.diagnostics.iter().all(|diagnostic| !diagnostic.labels.is_empty()));
     let rendered = render(&parsed.diagnostics, &parsed.sources, false);
     prop_assert_eq!(rendered.is_empty(), parsed.diagnostics.is_empty());
+    let sheet = Sheet::new(&parsed);
+    prop_assert_eq!(sheet.is_some(), parsed.model.is_some());
+    if let Some(sheet) = sheet {
+        let closed = sheet.latex().ends_with("\\end{document}\n") && sheet.graph_dot().ends_with("}\n");
+        prop_assert!(closed, "a page is not whole");
+        prop_assert!(!sheet.text().is_empty() && !sheet.markdown().is_empty());
+    }
     Ok(())
 }
 
@@ -150,6 +158,12 @@ proptest! {
         let mut text = PARTS[which].1.as_bytes().to_vec();
         mutations.iter().for_each(|mutation| mutate(&mut text, mutation));
         let text = String::from_utf8_lossy(&text);
+        // By itself as well, whatever the file then is.
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("part.toml");
+        std::fs::write(&path, text.as_bytes())?;
+        let checked = check_file(&path)?;
+        prop_assert!(!checked.part || checked.parsed.model.is_none());
         let mut parts = PARTS;
         parts[which].1 = &text;
         check_with(LARGE, &parts)?;
@@ -190,6 +204,11 @@ fn extremes_never_overflow_the_stack() {
         format!("{}q_theta{}", "abs(".repeat(127), ")".repeat(127)),
         format!("{}q_theta{}", "min(1, ".repeat(120), ")".repeat(120)),
         format!("if({}q_theta < 0, 1, 2)", "not ".repeat(120)),
+        format!("1 [1/s]*{}q_theta", "-".repeat(120)),
+        format!("1 [1/s]*{}q_theta{}", "-(1 + ".repeat(60), ")".repeat(60)),
+        format!("1 [1/s]*{}q_theta{}", "1/(1 - ".repeat(60), ")^2".repeat(60)),
+        format!("1 [1/s]*{}q_theta{}", "if(q_theta < 0, 1, 2*".repeat(60), ")".repeat(60)),
+        format!("1 [1/s]*{}q_theta{}", "2^(".repeat(60), ")".repeat(60)),
     ] {
         check(&spec(&flow)).unwrap();
     }

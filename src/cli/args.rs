@@ -1,6 +1,6 @@
 //! The command line as clap reads it.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Gaits, stability and the fastest stable climber, from models written as TOML specs.
@@ -28,6 +28,10 @@ pub(crate) enum Command {
     Models,
     /// Check spec files without building anything
     Check(CheckArgs),
+    /// Show a model: equations, parameters, the graph of its modes
+    Show(ShowArgs),
+    /// Explain a code of `gaitc check`, or list all codes
+    Explain(ExplainArgs),
     /// Find a periodic gait and its stability
     Gait(GaitArgs),
     /// Find the best gait over parameters
@@ -45,9 +49,51 @@ impl Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Spec files
+    /// Spec files, parts, or folders with such files
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  gaitc show self_exciting\n  gaitc show my_model.toml --format latex > my_model.tex\n  \
+                        gaitc show self_exciting --graph dot | dot -Tsvg > modes.svg"
+)]
+pub(crate) struct ShowArgs {
+    /// Name of a model, or the path of a spec file that ends in .toml
+    #[arg(value_name = "MODEL_OR_FILE")]
+    pub(crate) model: String,
+    /// How to typeset
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+    /// Print only the graph of modes and transitions
+    #[arg(long, value_enum, conflicts_with = "format")]
+    pub(crate) graph: Option<GraphFormat>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For a terminal
+    Text,
+    /// A LaTeX document
+    Latex,
+    /// Markdown with formulas between $$
+    Markdown,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GraphFormat {
+    /// One arrow a line
+    Text,
+    /// The DOT language of Graphviz
+    Dot,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExplainArgs {
+    /// A code such as E0107; without it all codes are listed
+    #[arg(value_name = "CODE")]
+    pub(crate) code: Option<String>,
 }
 
 /// Which model, and with which values.

@@ -1,34 +1,113 @@
-//! `gaitc check FILES`: all diagnostics of spec files, without Python and without a build.
+//! `gaitc check FILES`: all diagnostics of spec files and parts, without Python and without a build.
 
 use super::args::{CheckArgs, Cli};
 use super::{InputError, Outcome, output};
-use gaitc_compiler::diagnostic::{self, Severity};
+use gaitc_compiler::diagnostic::{self, Code, Severity};
 use gaitc_compiler::front::{self, Parsed};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 pub(super) fn run(cli: &Cli, args: &CheckArgs) -> Result<Outcome, InputError> {
-    let mut diagnostics = Vec::new();
-    let mut errors = 0;
+    let mut found = Found::default();
     for path in &args.files {
-        let parsed =
-            front::parse_file(path).map_err(|e| InputError(format!("cannot read `{}`: {e}", path.display())))?;
-        errors += parsed.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-        if cli.json {
-            diagnostics.extend(describe(&parsed));
+        found.path(path, cli.json);
+    }
+    if cli.json {
+        output::json(&json!({ "diagnostics": found.described }));
+    } else if let Some(hint) = hint(&found.codes) {
+        output::print(&hint);
+    }
+    match (found.errors, found.unread) {
+        (0, 0) => Ok(Outcome::Done),
+        (0, 1) => Err(InputError("1 file could not be read".to_owned())),
+        (0, n) => Err(InputError(format!("{n} files could not be read"))),
+        (1, 0) => Err(InputError("1 error in the spec".to_owned())),
+        (n, 0) => Err(InputError(format!("{n} errors in the specs"))),
+        (n, m) => Err(InputError(format!("errors in the specs: {n}; files that could not be read: {m}"))),
+    }
+}
+
+/// What was found in all files.
+#[derive(Default)]
+struct Found {
+    described: Vec<Value>,
+    codes: BTreeSet<Code>,
+    errors: usize,
+    unread: usize,
+}
+
+impl Found {
+    /// Checks a file, or every spec and part below a folder.
+    fn path(&mut self, path: &Path, json: bool) {
+        if !path.is_dir() {
+            return self.file(path, json);
+        }
+        let mut files = Vec::new();
+        if let Err(error) = toml_files(path, &mut files) {
+            self.cannot_read(path, &error.to_string(), json);
+        }
+        if files.is_empty() {
+            self.cannot_read(path, "no file below this folder ends in .toml", json);
+        }
+        files.sort();
+        files.iter().for_each(|file| self.file(file, json));
+    }
+
+    fn file(&mut self, path: &Path, json: bool) {
+        let checked = match front::check_file(path) {
+            Ok(checked) => checked,
+            Err(error) => return self.cannot_read(path, &error.to_string(), json),
+        };
+        let parsed = &checked.parsed;
+        self.errors += parsed.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
+        self.codes.extend(parsed.diagnostics.iter().map(|d| d.code));
+        if json {
+            self.described.extend(describe(parsed));
         } else if parsed.diagnostics.is_empty() {
-            output::print(&format!("{}: no problems\n", path.display()));
+            let part = if checked.part { "part, " } else { "" };
+            output::print(&format!("{}: {part}no problems\n", path.display()));
         } else {
             output::print(&diagnostic::render(&parsed.diagnostics, &parsed.sources, true));
         }
     }
-    if cli.json {
-        output::json(&json!({ "diagnostics": diagnostics }));
+
+    /// Reports a file that cannot be read, and goes on.
+    fn cannot_read(&mut self, path: &Path, why: &str, json: bool) {
+        self.unread += 1;
+        let message = format!("cannot read `{}`: {why}", path.display());
+        if json {
+            let code = Code::File.as_str();
+            self.described.push(json!({
+                "code": code, "severity": "error", "message": message, "file": path.display().to_string(),
+                "line": null, "column": null, "help": null,
+            }));
+        } else {
+            output::error(&message);
+        }
     }
-    match errors {
-        0 => Ok(Outcome::Done),
-        1 => Err(InputError("1 error in the spec".to_owned())),
-        n => Err(InputError(format!("{n} errors in the specs"))),
+}
+
+/// Every file below a folder that ends in `.toml`; links to folders are not followed.
+fn toml_files(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let path = entry.path();
+        if entry.file_type()?.is_dir() {
+            toml_files(&path, files)?;
+        } else if path.extension().is_some_and(|extension| extension == "toml") && !path.is_dir() {
+            files.push(path);
+        }
     }
+    Ok(())
+}
+
+/// Where to read more, once a run.
+fn hint(codes: &BTreeSet<Code>) -> Option<String> {
+    let first = codes.first()?;
+    let others: Vec<&str> = codes.iter().skip(1).map(|code| code.as_str()).collect();
+    let also = if others.is_empty() { String::new() } else { format!(" (also {})", others.join(", ")) };
+    Some(format!("\nfor more about {first}: gaitc explain {first}{also}\n"))
 }
 
 fn describe(parsed: &Parsed) -> Vec<Value> {

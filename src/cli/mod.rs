@@ -4,12 +4,14 @@
 
 mod args;
 mod check;
+mod explain;
 mod gait;
 mod guards;
 mod inputs;
 mod models;
 mod optimize;
 mod output;
+mod show;
 mod verify;
 
 use args::{Cli, Command};
@@ -67,6 +69,8 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
     match &cli.command {
         Command::Models => models::run(cli),
         Command::Check(args) => check::run(cli, args),
+        Command::Show(args) => show::run(cli, args),
+        Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),

@@ -4,25 +4,27 @@
 //! parsed (`read`, giving `spec`), parts taken in (`parts`), names resolved, dimensions checked and expressions lowered (`lower`). All
 //! problems of a file are reported in one go; what depends on something broken is silent.
 
+mod check;
 mod constant;
 mod document;
 pub mod flags;
 mod format;
 mod lexer;
 mod lower;
-mod names;
-mod parser;
+pub(crate) mod names;
+pub(crate) mod parser;
 mod parts;
-mod quantity;
+pub(crate) mod quantity;
 mod read;
-mod spec;
-mod syntax;
-mod text;
+pub(crate) mod spec;
+pub(crate) mod syntax;
+pub(crate) mod text;
 pub mod units;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Model;
 use crate::source::{FileId, SourceMap, Span};
+pub use check::{Checked, check_file};
 pub use format::{format_number, format_quantity, format_si, in_unit};
 pub use names::suggest;
 pub use parts::Library;
@@ -43,6 +45,8 @@ pub struct Parsed {
     pub diagnostics: Vec<Diagnostic>,
     /// The parts that were read, as paths seen from the folder of the spec, with `/`.
     pub parts: Vec<String>,
+    /// The spec as it was written, joined with its parts, for `show`; `None` without a model.
+    pub(crate) spec: Option<spec::Spec>,
 }
 
 /// Reads a spec from a file, and its parts from the file's folder.
@@ -98,14 +102,15 @@ pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
     }
     let model = model.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
     let diagnostics = sorted(diagnostics);
-    Parsed { sources, model, diagnostics, parts: loaded.names }
+    let spec = model.is_some().then_some(spec);
+    Parsed { sources, model, diagnostics, parts: loaded.names, spec }
 }
 
 fn unreadable(path: &Path, text: &str, at: usize, message: &str) -> Parsed {
     let mut sources = SourceMap::default();
     let file: FileId = sources.add(path, text);
     let diagnostic = Diagnostic::error(Code::File, message).at(Span { file, start: at, end: at }, "");
-    Parsed { sources, model: None, diagnostics: vec![diagnostic], parts: Vec::new() }
+    Parsed { sources, model: None, diagnostics: vec![diagnostic], parts: Vec::new(), spec: None }
 }
 
 fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnostic>) {

@@ -91,6 +91,7 @@ pub(crate) struct Memory {
 pub(crate) struct Function {
     pub(crate) arguments: Vec<Text>,
     pub(crate) body: Option<Equation>,
+    pub(crate) doc: String,
 }
 
 #[derive(Clone, Debug)]
@@ -98,6 +99,7 @@ pub(crate) struct Mode {
     pub(crate) flow: Vec<Named<Equation>>,
     /// Rows of the mass matrix, each by the state whose flow it belongs to; none is the identity.
     pub(crate) mass: Vec<Named<MassRow>>,
+    pub(crate) doc: String,
 }
 
 /// What stands at a row of a mass matrix.
@@ -119,6 +121,7 @@ pub(crate) struct Transition {
     pub(crate) reset: Vec<Named<Equation>>,
     /// Functions that vanish together with the guard, and the place of their key.
     pub(crate) also_zero: Option<(Span, Vec<Equation>)>,
+    pub(crate) doc: String,
 }
 
 /// A surface inside a mode, which a run passes without noticing.
@@ -127,6 +130,7 @@ pub(crate) struct Surface {
     pub(crate) mode: Option<Text>,
     pub(crate) guard: Option<Equation>,
     pub(crate) direction: Option<Direction>,
+    pub(crate) doc: String,
 }
 
 /// At what a section stands.

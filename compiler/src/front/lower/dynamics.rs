@@ -157,7 +157,7 @@ impl Lowering<'_> {
     /// Lowers `[transitions]`.
     pub(super) fn transitions(&mut self, spec: &Spec) {
         for item in &spec.transitions {
-            let Transition { from, to, guard, direction, when, reset, also_zero: _ } = &item.value;
+            let Transition { from, to, guard, direction, when, reset, also_zero: _, doc: _ } = &item.value;
             let from = from.as_ref().and_then(|name| self.mode(spec, name));
             let to = to.as_ref().and_then(|name| self.mode(spec, name));
             let has_mass = from.and_then(|from| self.model.modes.get(from)).is_some_and(|mode| mode.mass.is_some());

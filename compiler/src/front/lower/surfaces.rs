@@ -22,7 +22,7 @@ impl Lowering<'_> {
     }
 
     fn surface(&mut self, spec: &Spec, item: &Named<Surface>) {
-        let Surface { mode, guard, direction } = &item.value;
+        let Surface { mode, guard, direction, doc: _ } = &item.value;
         let mode = mode.as_ref().and_then(|name| self.mode(spec, name));
         let has_mass = mode.and_then(|mode| self.model.modes.get(mode)).is_some_and(|mode| mode.mass.is_some());
         let rates = if has_mass { Rates::Unknown } else { Rates::Known };

@@ -100,6 +100,16 @@ impl<'a> Loader<'a> {
         if uses && self.whole {
             self.check_sizes(spec, start);
         }
+        self.loaded()
+    }
+
+    /// Joins a part that is looked at by itself with the parts that it uses.
+    pub(super) fn load_part(mut self, part: &mut Spec) -> Loaded {
+        self.take_in(part);
+        self.loaded()
+    }
+
+    fn loaded(self) -> Loaded {
         let mut names: Vec<(FileId, String)> =
             self.texts.into_iter().filter_map(|(name, file)| Some((file?, name))).collect();
         names.sort();

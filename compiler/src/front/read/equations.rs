@@ -22,8 +22,8 @@ pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Fun
         let arguments = fields.require("args", "args = [\"x\"]", sink);
         let arguments = arguments.and_then(|entry| strings(entry, "args = [\"x\"]", sink)).unwrap_or_default();
         let body = fields.equation("expr", "expr = \"2*x\"", sink);
-        fields.doc("doc", sink);
-        functions.push(Named { name: entry.key.clone(), span: entry.key_span, value: Function { arguments, body } });
+        let value = Function { arguments, body, doc: fields.doc("doc", sink) };
+        functions.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     functions
 }
@@ -37,9 +37,9 @@ pub(super) fn modes(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Mode>> 
         };
         let flow = fields.require("flow", &format!("[modes.{}.flow]", entry.key), sink);
         let flow = flow.and_then(|entry| table(entry, sink)).map(|table| equations(&table.entries, sink));
-        fields.doc("doc", sink);
+        let doc = fields.doc("doc", sink);
         let mass = fields.table("mass", sink).iter().map(|entry| mass_row(entry, sink)).collect();
-        let value = Mode { flow: flow.unwrap_or_default(), mass };
+        let value = Mode { flow: flow.unwrap_or_default(), mass, doc };
         modes.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     modes
@@ -62,8 +62,8 @@ pub(super) fn transitions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<T
         let Some(fields) = fields_of(entry, "transition", &keys, sink) else {
             continue;
         };
-        fields.doc("doc", sink);
         let value = Transition {
+            doc: fields.doc("doc", sink),
             from: fields.string("from", "from = \"stance\"", sink),
             to: fields.string("to", "to = \"stance\"", sink),
             guard: fields.equation("guard", "guard = \"length - tau*speed\"", sink),
@@ -110,11 +110,11 @@ pub(super) fn surfaces(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Surf
         let Some(fields) = fields_of(entry, "surface", &["mode", "guard", "direction", "doc"], sink) else {
             continue;
         };
-        fields.doc("doc", sink);
         let value = Surface {
             mode: fields.string("mode", "mode = \"flight\"", sink),
             guard: fields.equation("guard", "guard = \"climbing_speed\"", sink),
             direction: direction(&fields, sink),
+            doc: fields.doc("doc", sink),
         };
         surfaces.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }

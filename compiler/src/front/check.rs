@@ -1,0 +1,83 @@
+//! Checking a file by itself: a spec, or a part without anyone who uses it.
+
+use super::parts::{Library, Loader};
+use super::{Parsed, SIZE_LIMIT, document, lower, parse_file, read, sorted};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::front::spec::Spec;
+use crate::source::{SourceMap, Span};
+use std::path::Path;
+
+/// What was found in a file.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The diagnostics, and the model of a spec.
+    pub parsed: Parsed,
+    /// Whether the file is a part, which never gives a model.
+    pub part: bool,
+}
+
+/// Checks a spec, or a part: a file without `name`, transitions and section. Of a part is checked what does not depend on its user:
+/// syntax, tables and keys, units, names that clash, and the dimensions of what its own names determine.
+///
+/// # Errors
+/// As [`parse_file`].
+pub fn check_file(path: &Path) -> std::io::Result<Checked> {
+    let regular = std::fs::metadata(path)?;
+    if regular.is_file() && regular.len() <= SIZE_LIMIT {
+        let bytes = std::fs::read(path)?;
+        if let Some(parsed) = std::str::from_utf8(&bytes).ok().and_then(|text| part(path, text)) {
+            return Ok(Checked { parsed, part: true });
+        }
+    }
+    Ok(Checked { parsed: parse_file(path)?, part: false })
+}
+
+/// Checks a text as a part; `None` where it is none.
+fn part(path: &Path, text: &str) -> Option<Parsed> {
+    let mut sources = SourceMap::default();
+    let file = sources.add(path, text);
+    let mut diagnostics = Vec::new();
+    let document = document::parse(file, text, &mut diagnostics);
+    // Where TOML is broken the tables of a spec may be lost; an empty file is no part.
+    let of_spec = ["name", "transitions", "section"].iter().any(|key| document.get(key).is_some());
+    if of_spec || !diagnostics.is_empty() || document.entries.is_empty() {
+        return None;
+    }
+    let start = Span { file, start: 0, end: 0 };
+    let mut spec = read::read_part(&document, start, true, &mut diagnostics);
+    let root = folder_of_specs(path, &spec);
+    let name = root.join(path.file_name().unwrap_or_default());
+    let loaded = Loader::new(Library::Folder(root), &name, &mut sources, &mut diagnostics).load_part(&mut spec);
+    if loaded.whole && !diagnostics.iter().any(|diagnostic| diagnostic.code == Code::TooLarge) {
+        let mut found = Vec::new();
+        lower::lower(&spec, &sources, &mut found);
+        diagnostics.extend(found.into_iter().filter(is_of_the_part));
+    }
+    Some(Parsed { sources, model: None, diagnostics: sorted(diagnostics), parts: loaded.names, spec: None })
+}
+
+/// The folder from which the parts that a part uses are seen, that of the specs: the nearest one above the part that
+/// has them.
+fn folder_of_specs<'p>(path: &'p Path, spec: &Spec) -> &'p Path {
+    let own = path.parent().unwrap_or(Path::new(""));
+    let has_all = |folder: &&Path| spec.uses.iter().all(|item| folder.join(&item.part.value).is_file());
+    own.ancestors().find(has_all).unwrap_or(own)
+}
+
+/// Whether a diagnostic would be one for every user of the part. Names, equations and modes that are not there may come
+/// from the user, and with them what makes other things used, reachable or regular.
+fn is_of_the_part(diagnostic: &Diagnostic) -> bool {
+    diagnostic.is_error()
+        && !matches!(
+            diagnostic.code,
+            Code::UndefinedName
+                | Code::UndefinedFunction
+                | Code::WithRespectTo
+                | Code::MissingEquation
+                | Code::UnknownReference
+                | Code::SuperfluousEquation
+                | Code::GuardConstant
+                | Code::Mass
+                | Code::NoReturn
+        )
+}
