@@ -8,6 +8,7 @@ mod gait;
 mod guards;
 mod inputs;
 mod models;
+mod new;
 mod optimize;
 mod output;
 mod verify;
@@ -66,6 +67,7 @@ pub fn main() -> ExitCode {
 fn run(cli: &Cli) -> Result<Outcome, InputError> {
     match &cli.command {
         Command::Models => models::run(cli),
+        Command::New(args) => new::run(cli, args),
         Command::Check(args) => check::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),

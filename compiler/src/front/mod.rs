@@ -24,7 +24,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Model;
 use crate::source::{FileId, SourceMap, Span};
 pub use format::{format_number, format_quantity, format_si, in_unit};
-pub use names::suggest;
+pub use names::{is_module_name, suggest};
 pub use parts::Library;
 use parts::Loader;
 use std::path::Path;

@@ -60,7 +60,7 @@ pub(crate) fn is_identifier(name: &str) -> bool {
 }
 
 /// Whether it can name a model, whose generated code is a module of that name.
-pub(crate) fn is_module_name(name: &str) -> bool {
+pub fn is_module_name(name: &str) -> bool {
     name.bytes().next().is_some_and(|b| b.is_ascii_lowercase())
         && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
         && syn::parse_str::<syn::Ident>(name).is_ok()
