@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     /// Make a cargo project with a model of your own
     New(NewArgs),
+    /// Print the JSON Schema of specs, for editors
+    Schema(SchemaArgs),
 }
 
 impl Command {
@@ -150,4 +152,11 @@ pub(crate) struct NewArgs {
     /// Sources of gaitc to build with: a checkout, or a folder with its unpacked packages
     #[arg(long, value_name = "DIR")]
     pub(crate) crates: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArgs {
+    /// The schema of parts
+    #[arg(long)]
+    pub(crate) part: bool,
 }

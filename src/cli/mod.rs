@@ -11,6 +11,7 @@ mod models;
 mod new;
 mod optimize;
 mod output;
+mod schema;
 mod verify;
 
 use args::{Cli, Command};
@@ -68,6 +69,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
     match &cli.command {
         Command::Models => models::run(cli),
         Command::New(args) => new::run(cli, args),
+        Command::Schema(args) => schema::run(args),
         Command::Check(args) => check::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),

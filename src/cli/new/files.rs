@@ -5,9 +5,8 @@ use std::fs;
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
-/// Makes a folder with files (path below it and text). It is not there yet, or empty.
-pub(super) fn create(folder: &Path, texts: &[(String, String)]) -> std::result::Result<(), InputError> {
-    let shown = folder.display();
+/// Makes a folder with files (path below it and text). It is not there yet, or empty; messages call it `shown`.
+pub(super) fn create(folder: &Path, shown: &str, texts: &[(String, String)]) -> std::result::Result<(), InputError> {
     let exists = folder.symlink_metadata().is_ok();
     if exists {
         let mut entries = fs::read_dir(folder).map_err(|error| match error.kind() {

@@ -31,8 +31,8 @@ pub(super) fn run(cli: &Cli, args: &NewArgs) -> Result<Outcome, InputError> {
     };
     let crates = Crates::find(args.crates.as_deref())?;
     let texts = texts(&name, crates.as_ref());
-    files::create(&folder, &texts)?;
     let shown = args.folder.display().to_string();
+    files::create(&folder, &shown, &texts)?;
     if cli.json {
         let paths: Vec<&str> = texts.iter().map(|(path, _)| path.as_str()).collect();
         output::json(&json!({ "folder": shown, "model": name, "files": paths, "crates": crates.map(Crates::json) }));

@@ -41,13 +41,8 @@ const TAKEN: &[&str] = &[
 /// The folder of a project as an absolute path, if cargo can build in it.
 pub(super) fn folder(given: &Path) -> Result<PathBuf, InputError> {
     let shown = given.display();
-    let Some(text) = given.to_str() else {
+    if given.to_str().is_none() {
         return Err(InputError(format!("`{shown}` is not UTF-8\n  help: choose another folder")));
-    };
-    if text.is_empty() {
-        return Err(InputError(
-            "the folder has no name\n  help: write `gaitc new DIR`, as in `gaitc new hopper`".into(),
-        ));
     }
     let absolute = std::path::absolute(given).map_err(|error| InputError(format!("`{shown}`: {error}")))?;
     // Cargo puts the folder into lists of paths, and talks to build scripts in lines.
