@@ -33,6 +33,9 @@ use std::path::Path;
 /// Largest spec in bytes.
 const SIZE_LIMIT: u64 = 4 << 20;
 
+/// Longest line of a spec in bytes. Each message shows its line: many about a long one would take minutes.
+const LINE_LIMIT: usize = 20_000;
+
 /// What became of a spec.
 #[derive(Clone, Debug)]
 pub struct Parsed {
@@ -83,6 +86,9 @@ pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
         let message = format!("this text has {} bytes; a spec has at most {SIZE_LIMIT}", text.len());
         return unreadable(path, "", 0, &message);
     }
+    if let Some((start, message)) = long_line(text) {
+        return unreadable(path, text, start, &message);
+    }
     let mut sources = SourceMap::default();
     let file = sources.add(path, text);
     let mut diagnostics = Vec::new();
@@ -100,6 +106,18 @@ pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
     let model = model.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
     let diagnostics = sorted(diagnostics);
     Parsed { sources, model, diagnostics, parts: loaded.names }
+}
+
+/// Where a line begins that is too long, and what is to be said of it.
+fn long_line(text: &str) -> Option<(usize, String)> {
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        if line.len() > LINE_LIMIT {
+            return Some((start, format!("this line has {} bytes; a line has at most {LINE_LIMIT}", line.len())));
+        }
+        start += line.len();
+    }
+    None
 }
 
 fn unreadable(path: &Path, text: &str, at: usize, message: &str) -> Parsed {
