@@ -17,10 +17,19 @@ fn every_code_is_explained() {
         assert_eq!((exit, errors.as_str()), (0, ""), "{code}");
         assert!(out.starts_with(&format!("{code}: {}\n\n", code.title())), "{out}");
         assert!(out.contains("\nWrong:\n\n    ") && out.contains("\nRight:\n\n    "), "{out}");
-        assert!(!out.contains("```") && !out.contains("## "), "{out}");
+        assert!(!out.contains("```") && !out.contains("## ") && !out.contains("]("), "{out}");
         let (_, value) = json(&["explain", code.as_str()]);
         assert_eq!((value["code"].as_str(), value["title"].as_str()), (Some(code.as_str()), Some(code.title())));
         assert!(value["text"].as_str().unwrap().contains("```toml"));
+    }
+}
+
+#[test]
+fn every_entry_has_a_code() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/errors.md")).unwrap();
+    for heading in page.lines().filter_map(|line| line.strip_prefix("## ")) {
+        let known = Code::ALL.iter().any(|code| heading == format!("{code}: {}", code.title()));
+        assert!(known, "docs/errors.md explains `{heading}`, which is no code");
     }
 }
 

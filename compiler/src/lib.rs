@@ -7,6 +7,7 @@ pub mod diagnostic;
 pub mod dimension;
 pub mod front;
 pub mod ir;
+pub mod schema;
 pub mod show;
 pub mod source;
 pub mod valid;

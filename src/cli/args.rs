@@ -38,6 +38,10 @@ pub(crate) enum Command {
     Optimize(OptimizeArgs),
     /// Measure every generated derivative against an independent route
     Verify(VerifyArgs),
+    /// Make a cargo project with a model of your own
+    New(NewArgs),
+    /// Print the JSON Schema of specs, for editors
+    Schema(SchemaArgs),
 }
 
 impl Command {
@@ -180,4 +184,25 @@ pub(crate) struct VerifyArgs {
     /// Seed of the random points
     #[arg(long, default_value_t = 1, value_name = "N")]
     pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  gaitc new hopper\n  cd hopper\n  cargo run")]
+pub(crate) struct NewArgs {
+    /// Folder of the project: it must not exist yet, or be empty
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Name of the model [default: made from the folder's name]
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    pub(crate) name: Option<String>,
+    /// Sources of gaitc to build with: a checkout, or a folder with its unpacked packages
+    #[arg(long, value_name = "DIR")]
+    pub(crate) crates: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArgs {
+    /// The schema of parts
+    #[arg(long)]
+    pub(crate) part: bool,
 }

@@ -126,35 +126,3 @@ fn without_links(text: &str) -> String {
     }
     out + rest
 }
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)] // a failed unwrap fails the test
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_code_has_an_entry_that_shows_a_wrong_and_a_right_line() {
-        for code in Code::ALL {
-            let text = entry(PAGE, *code).unwrap_or_else(|| panic!("docs/errors.md has no entry for {code}"));
-            for part in ["Wrong:\n\n```", "Right:\n\n```"] {
-                assert!(text.contains(part), "the entry of {code} has no {part:?}:\n{text}");
-            }
-            assert_eq!(text.matches("```").count() % 2, 0, "{code}");
-            assert!(!terminal(text).contains("```") && !text.contains("\n## "), "{code}");
-        }
-    }
-
-    #[test]
-    fn every_entry_has_a_code() {
-        for heading in PAGE.lines().filter_map(|line| line.strip_prefix("## ")) {
-            let known = Code::ALL.iter().any(|code| heading == format!("{code}: {}", code.title()));
-            assert!(known, "docs/errors.md explains `{heading}`, which is no code");
-        }
-    }
-
-    #[test]
-    fn markdown_is_made_for_a_terminal() {
-        let text = terminal("See [language.md](language.md) and [this](a.md).\n\n```toml\nx = \"[a](b)\"\n```\n");
-        assert_eq!(text, "See docs/language.md and this.\n\n    x = \"[a](b)\"\n");
-    }
-}

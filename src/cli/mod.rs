@@ -9,8 +9,10 @@ mod gait;
 mod guards;
 mod inputs;
 mod models;
+mod new;
 mod optimize;
 mod output;
+mod schema;
 mod show;
 mod verify;
 
@@ -68,6 +70,8 @@ pub fn main() -> ExitCode {
 fn run(cli: &Cli) -> Result<Outcome, InputError> {
     match &cli.command {
         Command::Models => models::run(cli),
+        Command::New(args) => new::run(cli, args),
+        Command::Schema(args) => schema::run(args),
         Command::Check(args) => check::run(cli, args),
         Command::Show(args) => show::run(cli, args),
         Command::Explain(args) => explain::run(cli, args),

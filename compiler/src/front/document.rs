@@ -3,6 +3,7 @@
 use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{FileId, Span};
+use std::collections::HashSet;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -64,11 +65,20 @@ impl Value {
     }
 }
 
+/// Most errors of broken TOML: a quote that is missing makes all that follows wrong.
+const ERROR_LIMIT: usize = 50;
+
 /// Reads a file. Where the TOML is broken, what could be recovered comes with the errors.
 pub(crate) fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Table {
     let (table, errors) = DeTable::parse_recoverable(text);
+    let mut lines = HashSet::new();
     for error in errors {
         let range = error.span().unwrap_or(0..0);
+        // What follows a mistake on its line is mostly a consequence of it.
+        let before = text.get(..range.start).unwrap_or("");
+        if lines.len() >= ERROR_LIMIT || !lines.insert(before.rfind('\n')) {
+            continue;
+        }
         let span = Span { file, start: range.start.min(text.len()), end: range.end.min(text.len()) };
         let diagnostic = Diagnostic::error(Code::Toml, error.message().trim().replace('\n', ", ")).at(span, "");
         diagnostics.push(match advice(text, &range) {

@@ -9,13 +9,14 @@ mod constant;
 mod document;
 pub mod flags;
 mod format;
+pub(crate) mod keys;
 mod lexer;
 mod lower;
 pub(crate) mod names;
 pub(crate) mod parser;
 mod parts;
 pub(crate) mod quantity;
-mod read;
+pub(crate) mod read;
 pub(crate) mod spec;
 pub(crate) mod syntax;
 pub(crate) mod text;
@@ -26,13 +27,16 @@ use crate::ir::Model;
 use crate::source::{FileId, SourceMap, Span};
 pub use check::{Checked, check_file};
 pub use format::{format_number, format_quantity, format_si, in_unit};
-pub use names::suggest;
+pub use names::{is_module_name, suggest};
 pub use parts::Library;
 use parts::Loader;
 use std::path::Path;
 
 /// Largest spec in bytes.
 const SIZE_LIMIT: u64 = 4 << 20;
+
+/// Longest line of a spec in bytes. Each message shows its line: many about a long one would take minutes.
+const LINE_LIMIT: usize = 20_000;
 
 /// What became of a spec.
 #[derive(Clone, Debug)]
@@ -86,6 +90,9 @@ pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
         let message = format!("this text has {} bytes; a spec has at most {SIZE_LIMIT}", text.len());
         return unreadable(path, "", 0, &message);
     }
+    if let Some((start, message)) = long_line(text) {
+        return unreadable(path, text, start, &message);
+    }
     let mut sources = SourceMap::default();
     let file = sources.add(path, text);
     let mut diagnostics = Vec::new();
@@ -104,6 +111,18 @@ pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
     let diagnostics = sorted(diagnostics);
     let spec = model.is_some().then_some(spec);
     Parsed { sources, model, diagnostics, parts: loaded.names, spec }
+}
+
+/// Where a line begins that is too long, and what is to be said of it.
+fn long_line(text: &str) -> Option<(usize, String)> {
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        if line.len() > LINE_LIMIT {
+            return Some((start, format!("this line has {} bytes; a line has at most {LINE_LIMIT}", line.len())));
+        }
+        start += line.len();
+    }
+    None
 }
 
 fn unreadable(path: &Path, text: &str, at: usize, message: &str) -> Parsed {

@@ -51,6 +51,12 @@ pub(crate) fn reserved(name: &str) -> Option<String> {
     (function || FUNCTIONALS.contains(&name)).then(|| format!("the function `{name}(...)`"))
 }
 
+/// All names that belong to the language.
+pub(crate) fn reserved_words() -> Vec<&'static str> {
+    let words = WORDS.iter().map(|(word, _)| *word);
+    words.chain(FUNCTIONS.iter().map(|(word, _)| *word)).chain(FUNCTIONALS.iter().copied()).collect()
+}
+
 /// Whether expressions can refer to it: ASCII letters, digits and `_`, no digit first.
 pub(crate) fn is_identifier(name: &str) -> bool {
     let mut bytes = name.bytes();
@@ -60,10 +66,11 @@ pub(crate) fn is_identifier(name: &str) -> bool {
 }
 
 /// Whether it can name a model, whose generated code is a module of that name.
-pub(crate) fn is_module_name(name: &str) -> bool {
+pub fn is_module_name(name: &str) -> bool {
     name.bytes().next().is_some_and(|b| b.is_ascii_lowercase())
         && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
         && syn::parse_str::<syn::Ident>(name).is_ok()
+        && name != "gen" // a keyword since edition 2024, which the parser does not know
 }
 
 /// The candidate that `name` was probably meant to be, if one is near enough. Of equally near ones the first.
@@ -104,7 +111,7 @@ mod tests {
     #[test]
     fn names_of_models_are_rust_modules() {
         assert!(is_module_name("prescribed_length"));
-        for wrong in ["", "Prescribed", "a-b", "fn", "1a", "self", "é", "_"] {
+        for wrong in ["", "Prescribed", "a-b", "fn", "gen", "1a", "self", "é", "_"] {
             assert!(!is_module_name(wrong), "{wrong}");
         }
         assert!(is_identifier("L0") && is_identifier("_x") && !is_identifier("0L") && !is_identifier("a.b"));

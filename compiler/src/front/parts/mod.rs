@@ -4,12 +4,12 @@
 mod bind;
 mod join;
 
-use super::SIZE_LIMIT;
 use super::document;
 use super::parser::shortened;
 use super::read::{STATE_LIMIT, nothing_in, read_part};
 use super::spec::{Spec, Use};
 use super::text::Text;
+use super::{SIZE_LIMIT, long_line};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::{HashMap, HashSet};
@@ -195,7 +195,14 @@ impl<'a> Loader<'a> {
             return *file;
         }
         let path = self.path.parent().unwrap_or(Path::new("")).join(name);
-        let file = match self.library.text(name) {
+        let text = self.library.text(name).and_then(|text| match long_line(&text) {
+            Some((start, message)) => {
+                let line = text.get(..start).unwrap_or("").matches('\n').count() + 1;
+                Err(format!("line {line}: {message}"))
+            }
+            None => Ok(text),
+        });
+        let file = match text {
             Ok(text) => Some(self.sources.add(path, text)),
             Err(why) => {
                 self.missing(part, &path, &why);

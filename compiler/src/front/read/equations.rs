@@ -6,6 +6,7 @@ use super::fields::{
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
+use crate::front::keys;
 use crate::front::names::suggest;
 use crate::front::spec::{Anchor, Equation, Function, MassRow, Mode, Named, Section, Surface, Transition};
 use crate::front::text::Text;
@@ -16,7 +17,7 @@ use crate::source::Span;
 pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Function>> {
     let mut functions = Vec::new();
     for entry in entries {
-        let Some(fields) = fields_of(entry, "function", &["args", "expr", "doc"], sink) else {
+        let Some(fields) = fields_of(entry, "function", keys::FUNCTION, sink) else {
             continue;
         };
         let arguments = fields.require("args", "args = [\"x\"]", sink);
@@ -32,7 +33,7 @@ pub(super) fn functions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Fun
 pub(super) fn modes(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Mode>> {
     let mut modes = Vec::new();
     for entry in entries {
-        let Some(fields) = fields_of(entry, "mode", &["flow", "mass", "doc"], sink) else {
+        let Some(fields) = fields_of(entry, "mode", keys::MODE, sink) else {
             continue;
         };
         let flow = fields.require("flow", &format!("[modes.{}.flow]", entry.key), sink);
@@ -57,9 +58,8 @@ fn mass_row(entry: &Entry, sink: &mut Sink<'_>) -> Named<MassRow> {
 /// `[transitions.NAME]`.
 pub(super) fn transitions(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Transition>> {
     let mut transitions = Vec::new();
-    let keys = ["from", "to", "guard", "direction", "when", "reset", "also_zero", "doc"];
     for entry in entries {
-        let Some(fields) = fields_of(entry, "transition", &keys, sink) else {
+        let Some(fields) = fields_of(entry, "transition", keys::TRANSITION, sink) else {
             continue;
         };
         let value = Transition {
@@ -92,7 +92,7 @@ fn direction(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Direction> {
         "rising" => Some(Direction::Rising),
         "either" => Some(Direction::Either),
         other => {
-            let help = match suggest(other, ["falling", "rising", "either"]) {
+            let help = match suggest(other, keys::DIRECTIONS.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "write `falling` (from positive to negative), `rising` or `either`".to_owned(),
             };
@@ -107,7 +107,7 @@ fn direction(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Direction> {
 pub(super) fn surfaces(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Surface>> {
     let mut surfaces = Vec::new();
     for entry in entries {
-        let Some(fields) = fields_of(entry, "surface", &["mode", "guard", "direction", "doc"], sink) else {
+        let Some(fields) = fields_of(entry, "surface", keys::SURFACE, sink) else {
             continue;
         };
         let value = Surface {
@@ -144,8 +144,7 @@ fn anchor(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Anchor> {
 
 /// `[section]`.
 pub(super) fn section(entry: &Entry, sink: &mut Sink<'_>) -> Option<Section> {
-    let keys = ["after", "before", "at", "coordinates", "embed", "start", "symmetry", "doc"];
-    let fields = Fields::new(table(entry, sink)?, entry.key_span, "[section]".to_owned(), &keys, sink);
+    let fields = Fields::new(table(entry, sink)?, entry.key_span, "[section]".to_owned(), keys::SECTION, sink);
     fields.doc("doc", sink);
     let example = "coordinates = [\"angle\", \"speed\"]";
     let coordinates = fields.require("coordinates", example, sink);

@@ -2,11 +2,12 @@
 
 mod equations;
 mod fields;
-mod quantities;
+pub(crate) mod quantities;
 mod results;
 mod uses;
 
 use super::document::{Entry, Table, ValueKind};
+use super::keys;
 use super::names::is_module_name;
 use super::spec::Spec;
 use crate::diagnostic::{Code, Diagnostic};
@@ -14,41 +15,13 @@ use crate::source::Span;
 pub(crate) use fields::list;
 use fields::{Fields, Sink, table};
 
-/// All keys of a spec.
-const KEYS: &[&str] = &[
-    "spec",
-    "name",
-    "title",
-    "source",
-    "use",
-    "parameters",
-    "state",
-    "memory",
-    "let",
-    "functions",
-    "modes",
-    "transitions",
-    "surfaces",
-    "section",
-    "measures",
-    "problems",
-];
-
 /// The version of the language.
-const VERSION: i64 = 1;
-
-/// Those that only a spec can have, and why.
-const KEYS_OF_SPECS: &[(&str, &str)] = &[
-    ("name", "only a model has a name; a part is known by its file"),
-    ("transitions", "what a machine does at an event is said in the spec that uses the part"),
-    ("surfaces", "where a map begins is said in the spec that uses the part"),
-    ("section", "where a map begins is said in the spec that uses the part"),
-];
+pub(crate) const VERSION: i64 = 1;
 
 /// Reads a whole document; `start` is the beginning of the file. Nothing is reported as missing unless `complete`.
 pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
     let sink = &mut Sink { diagnostics, complete };
-    let fields = Fields::new(document, start, "the spec".to_owned(), KEYS, sink);
+    let fields = Fields::new(document, start, "the spec".to_owned(), keys::SPEC, sink);
     version(&fields, sink);
     let name = fields.string("name", "name = \"my_model\"", sink);
     let spec = Spec {
@@ -71,9 +44,9 @@ pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &
 /// Reads a document that is a part.
 pub(crate) fn read_part(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
     let sink = &mut Sink { diagnostics, complete };
-    let fields = Fields::new(document, start, "the part".to_owned(), KEYS, sink);
+    let fields = Fields::new(document, start, "the part".to_owned(), keys::SPEC, sink);
     version(&fields, sink);
-    for (key, why) in KEYS_OF_SPECS {
+    for (key, why) in keys::OF_SPECS_ONLY {
         if let Some(entry) = fields.get(key) {
             let message = format!("a part cannot have `{key}`");
             sink.push(Diagnostic::error(Code::PartTable, message).at(entry.key_span, "").help(*why));
@@ -127,7 +100,7 @@ const ENTRY_LIMIT: usize = 10_000;
 
 /// Reports tables of absurd size; nothing is lowered then.
 fn too_many(fields: &Fields<'_>, sink: &mut Sink<'_>) {
-    for key in KEYS {
+    for key in keys::SPEC {
         let Some(entry) = fields.get(key) else { continue };
         let ValueKind::Table(table) = &entry.value.kind else { continue };
         let limit = if matches!(*key, "state" | "modes") { STATE_LIMIT } else { ENTRY_LIMIT };

@@ -4,6 +4,7 @@ use super::fields::{Sink, interval, scalar, string, strings};
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
+use crate::front::keys;
 use crate::front::spec::{Memory, Named, Parameter, State};
 
 /// `x = { value = "13 cm", range = ["5 cm", "30 cm"], doc = "..." }` or, for short, `x = "13 cm"`.
@@ -17,7 +18,7 @@ fn parameter(entry: &Entry, sink: &mut Sink<'_>) -> Parameter {
     if let ValueKind::Text(text) | ValueKind::Integer(_, text) | ValueKind::Float(text) = &entry.value.kind {
         return Parameter { value: Some(text.clone()), ..broken };
     }
-    let Some(fields) = fields_of(entry, "parameter", &["value", "range", "doc"], sink) else {
+    let Some(fields) = fields_of(entry, "parameter", keys::PARAMETER, sink) else {
         return broken;
     };
     let value = fields.require("value", example, sink);
@@ -36,7 +37,7 @@ pub(super) fn states(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<State>
 
 fn state(entry: &Entry, sink: &mut Sink<'_>) -> State {
     let broken = State { unit: None, modes: None, doc: String::new() };
-    let Some(fields) = fields_of(entry, "state", &["unit", "doc", "modes"], sink) else {
+    let Some(fields) = fields_of(entry, "state", keys::STATE, sink) else {
         return broken;
     };
     let unit = fields.require("unit", "unit = \"m/s\"", sink);
@@ -54,7 +55,7 @@ pub(super) fn memory(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Memory
 
 fn one_memory(entry: &Entry, sink: &mut Sink<'_>) -> Memory {
     let broken = Memory { initial: 0, doc: String::new() };
-    let Some(fields) = fields_of(entry, "memory", &["initial", "doc"], sink) else {
+    let Some(fields) = fields_of(entry, "memory", keys::MEMORY, sink) else {
         return broken;
     };
     let doc = fields.doc("doc", sink);
@@ -77,7 +78,7 @@ fn one_memory(entry: &Entry, sink: &mut Sink<'_>) -> Memory {
 }
 
 /// Up to here every whole number is an f64: 2^53.
-const LARGEST: u64 = 1 << 53;
+pub(crate) const LARGEST: u64 = 1 << 53;
 
 fn named<T>(entry: &Entry, value: T) -> Named<T> {
     Named { name: entry.key.clone(), span: entry.key_span, value }

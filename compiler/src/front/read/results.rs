@@ -4,6 +4,7 @@ use super::fields::{Fields, Sink, constraint, equation, interval, strings};
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
+use crate::front::keys;
 use crate::front::spec::{Equation, Interval, Measure, Named, Problem};
 use crate::ir::Sense;
 use crate::source::Span;
@@ -12,7 +13,7 @@ use crate::source::Span;
 pub(super) fn measures(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Measure>> {
     let mut measures = Vec::new();
     for entry in entries {
-        let Some(fields) = fields_of(entry, "measure", &["expr", "unit", "doc"], sink) else {
+        let Some(fields) = fields_of(entry, "measure", keys::MEASURE, sink) else {
             continue;
         };
         let value = Measure {
@@ -28,9 +29,8 @@ pub(super) fn measures(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Meas
 /// `[problems.NAME]`.
 pub(super) fn problems(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Problem>> {
     let mut problems = Vec::new();
-    let keys = ["doc", "default", "maximize", "minimize", "vary", "subject_to"];
     for entry in entries {
-        let Some(fields) = fields_of(entry, "problem", &keys, sink) else {
+        let Some(fields) = fields_of(entry, "problem", keys::PROBLEM, sink) else {
             continue;
         };
         let example = "subject_to = [\"spectral_radius <= 0.95\"]";

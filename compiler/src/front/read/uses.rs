@@ -3,6 +3,7 @@
 use super::fields::{Fields, Sink, expression_or_quantity, scalar, string, table};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, Value, ValueKind};
+use crate::front::keys;
 use crate::front::names::is_identifier;
 use crate::front::parser::shortened;
 use crate::front::spec::{Named, Use};
@@ -50,8 +51,7 @@ fn in_a_role(entry: &Entry, sink: &mut Sink<'_>) -> Option<Use> {
     if let ValueKind::Text(part) = &entry.value.kind {
         return Some(plain(part));
     }
-    let keys = ["part", "rename", "set", "fix"];
-    let fields = Fields::new(table(entry, sink)?, entry.key_span, format!("use of `{role}`"), &keys, sink);
+    let fields = Fields::new(table(entry, sink)?, entry.key_span, format!("use of `{role}`"), keys::USE, sink);
     let texts = |key: &str, read: fn(&Entry, &mut Sink<'_>) -> Option<Text>, sink: &mut Sink<'_>| {
         let mut items = Vec::new();
         for entry in fields.table(key, sink) {
