@@ -6,7 +6,7 @@ mod common;
 mod maps;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::json;
+use common::{json, number};
 use gaitc_runtime::model::{Gradient, Jacobian};
 use gaitc_runtime::probe::{Evaluation, Function, Point, Variable};
 use gaitc_runtime::return_map::{MapOutcome, StopReason};
@@ -65,6 +65,15 @@ fn bounces_pile_up_at_the_closed_time() {
     let (code, value) = json(&["gait", "bouncing_ball", "--set", "kick=0 m/s", "--period", "1000"]);
     assert_eq!((code, value["status"].as_str()), (2, Some("zeno")), "{value:#}");
     assert_abs_diff_eq!(value["stopped"]["time"].as_f64().unwrap(), 4.0 / (G * 0.2), epsilon = 1e-8);
+}
+
+/// The height kick^2/(2 g (1 - e)^2) grows with both; stability bounds the restitution, the range the kick.
+#[test]
+fn the_highest_bounce_is_the_closed_form() {
+    let (code, best) = json(&["optimize", "bouncing_ball"]);
+    assert_eq!((code, best["status"].as_str()), (0, Some("optimal")), "{best:#}");
+    assert_abs_diff_eq!(number(&best, "/parameters/e"), 0.5, epsilon = 1e-8);
+    assert_abs_diff_eq!(number(&best, "/objective/value"), 16.0 / (2.0 * G), epsilon = 1e-7);
 }
 
 /// Xi = [[v+/v-, 0], [-(1 + e) g/v-, -e]] for the speeds v- and v+ before and after the impact, from the generated functions.

@@ -43,6 +43,19 @@ fn with_light_legs_the_gait_is_that_of_the_simplest_walking_model() {
     assert_abs_diff_eq!(limit(2), -RATE * (2.0 * ANGLE).cos(), epsilon = 1e-10);
 }
 
+/// The paper's period-1 gaits are stable up to this slope, where a multiplier passes -1.
+#[test]
+fn with_light_legs_the_gait_turns_unstable_at_the_published_slope() {
+    for (slope, stable) in [(0.0150, true), (0.0152, false)] {
+        let mut machine = light_legs(1e-7);
+        let index = machine.model.parameter("gamma").unwrap();
+        machine.parameters[index] = slope;
+        let gait = machine.gait(Some(&[-0.22, 0.23, 0.2]));
+        assert_eq!(gait.spectral_radius < 1.0, stable, "{slope}: {:?}", gait.multipliers);
+        assert!(gait.multipliers[0].im == 0.0 && gait.multipliers[0].re < 0.0, "{:?}", gait.multipliers);
+    }
+}
+
 /// Lagrange's equations of a walker with masses on its legs, and conservation of angular momentum at touch-down, with places and
 /// velocities of the three masses instead of the formulas of the spec.
 mod masses {

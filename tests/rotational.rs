@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
+mod common;
 mod maps;
 
 use approx::assert_abs_diff_eq;
+use common::{json, number};
 use maps::{Machine, rk4};
 use std::f64::consts::PI;
 
@@ -40,6 +42,18 @@ fn the_gait_hangs_and_climbs_one_stroke_a_step() {
     let force = 2.6 * (G + L_S / 2.0 * (6.0 * PI).powi(2));
     assert_abs_diff_eq!(machine.measure(&gait.map, "peak_force"), force, epsilon = 1e-9);
     assert_abs_diff_eq!(gait.spectral_radius, DETERMINANT.sqrt(), epsilon = 1e-12);
+}
+
+/// Both bounds limit the fastest one: the radius the stroke, 1.1^2 = 1 + l_s/l_b, and the force then the frequency.
+#[test]
+fn the_fastest_climber_is_the_closed_form() {
+    let (code, best) = json(&["optimize", "rotational"]);
+    assert_eq!((code, best["status"].as_str()), (0, Some("optimal")), "{best:#}");
+    let stroke = 0.21 * L_B;
+    let omega = ((80.0 / 2.6 - G) * 2.0 / stroke).sqrt();
+    assert_abs_diff_eq!(number(&best, "/parameters/l_s"), stroke, epsilon = 1e-7);
+    assert_abs_diff_eq!(number(&best, "/parameters/omega"), omega, epsilon = 1e-5);
+    assert_abs_diff_eq!(number(&best, "/objective/value"), stroke * omega / PI, epsilon = 1e-7);
 }
 
 /// Trace of the linearised map of the hanging state, by another integrator: a pendulum of varying length.
