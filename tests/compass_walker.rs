@@ -37,8 +37,8 @@ fn with_light_legs_the_gait_is_that_of_the_simplest_walking_model() {
     let gaits: Vec<_> =
         [8e-3, 4e-3, 2e-3, 1e-3, 5e-4].map(|m| (m, light_legs(m).gait(Some(&guess)).coordinates)).into_iter().collect();
     let limit = |i: usize| extrapolate(&gaits.iter().map(|(m, z)| (*m, z[i])).collect::<Vec<_>>());
-    assert_abs_diff_eq!(SLOPE - limit(0), ANGLE, epsilon = 1e-10);
-    assert_abs_diff_eq!(-limit(1), RATE, epsilon = 1e-10);
+    assert_abs_diff_eq!(SLOPE - limit(0), ANGLE, epsilon = 1e-12);
+    assert_abs_diff_eq!(-limit(1), RATE, epsilon = 1e-12);
     // The new swing leg moves with the hip.
     assert_abs_diff_eq!(limit(2), -RATE * (2.0 * ANGLE).cos(), epsilon = 1e-10);
 }
