@@ -6,7 +6,7 @@ use gaitc::load::{LoadError, embedded, load};
 use gaitc::models::MODELS;
 use std::path::Path;
 
-const PARTS: [&str; 3] = ["constant_voltage", "dc_motor", "crank_slider"];
+const PARTS: [&str; 4] = ["constant_voltage", "dc_motor", "dc_motor_planar", "crank_slider"];
 
 fn copy(name: &str, to: &Path) {
     let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs").join(name);

@@ -11,8 +11,9 @@ use std::path::Path;
 const SPEC: &str = include_str!("../../specs/prescribed_length.toml");
 /// The spec with most kinds of tables, and its parts.
 const LARGE: &str = include_str!("../../specs/self_exciting.toml");
-const PARTS: [(&str, &str); 3] = [
+const PARTS: [(&str, &str); 4] = [
     ("parts/constant_voltage.toml", include_str!("../../specs/parts/constant_voltage.toml")),
+    ("parts/dc_motor_planar.toml", include_str!("../../specs/parts/dc_motor_planar.toml")),
     ("parts/dc_motor.toml", include_str!("../../specs/parts/dc_motor.toml")),
     ("parts/crank_slider.toml", include_str!("../../specs/parts/crank_slider.toml")),
 ];

@@ -79,6 +79,8 @@ pub struct GaitOutcome {
 
 /// By how much the run with measures may miss the tolerance of the search.
 const OTHER_STEPS: f64 = 1e3;
+/// A step that has become so much shorter than that of the guess is on its way to no length at all.
+const COLLAPSED: f64 = 1e-5;
 /// How often a Newton step is halved.
 const HALVINGS: usize = 20;
 /// How many iterates of the map serve as further starts.
@@ -99,6 +101,7 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
     let mut best: Option<Point> = None;
     let mut iterations = 0;
     let mut stop = None;
+    let mut usual = None;
     for turn in 0..=FALLBACK_ITERATES / ITERATES_A_START {
         match search.evaluate(&start)? {
             Err(stopped) => {
@@ -106,7 +109,11 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
                 break;
             }
             Ok(point) => {
+                let usual = *usual.get_or_insert(point.map.duration);
                 let point = search.newton(point, &mut iterations)?;
+                if point.map.duration <= COLLAPSED * usual {
+                    return Ok(collapsed(point, iterations));
+                }
                 if best.as_ref().is_none_or(|b| point.residual < b.residual) {
                     best = Some(point);
                 }
@@ -252,6 +259,18 @@ impl Search<'_> {
         let spectral_radius = spectral_radius(&multipliers);
         Ok(Gait { coordinates: point.z, map, multipliers, spectral_radius })
     }
+}
+
+/// The outcome of a search that ran into a step of no length: where a step ends as it begins every map has a fixed point, which
+/// is no gait.
+fn collapsed(point: Point, iterations: usize) -> GaitOutcome {
+    let stop = Stop { reason: StopReason::Zeno, time: point.map.duration, state: point.map.state.as_slice().to_vec() };
+    let message = format!(
+        "the search runs into a step of zero length, which is no gait ({:.1e} s when it was given up); try another guess or \
+         other parameters",
+        stop.time
+    );
+    GaitOutcome { status: GaitStatus::Stopped(stop), message, gait: None, residual: point.residual, iterations }
 }
 
 fn residual(z: &DVector<f64>, image: &DVector<f64>) -> f64 {
