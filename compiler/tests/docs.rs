@@ -71,7 +71,8 @@ fn language() -> Vec<(String, Vec<Block>)> {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     let mut listed: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-    (files.sort(), listed.sort());
+    files.sort();
+    listed.sort();
     assert_eq!(files, listed, "the list of pages");
     names.iter().map(|name| ((*name).to_owned(), split(&page(&format!("docs/language/{name}"))).0)).collect()
 }
@@ -146,6 +147,16 @@ fn the_tutorial_says_what_the_compiler_says() {
     assert_eq!(mistakes, 2);
     let hopper = model(&spec);
     assert_eq!((hopper.modes.len(), hopper.measures.len(), hopper.problems.len()), (2, 4, 1));
+}
+
+/// Models that were written from the reference alone, by someone who had a machine in mind.
+#[test]
+fn models_written_from_the_reference_compile() {
+    for name in ["brachiator", "raibert_hopper"] {
+        let found = model(&page(&format!("compiler/tests/unseen/{name}.toml")));
+        assert_eq!(found.name, name);
+        assert!(found.section.is_some_and(|section| section.coordinates.len() >= 3));
+    }
 }
 
 /// All pages of the repository, and what is not built or hidden.
