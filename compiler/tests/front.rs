@@ -33,33 +33,6 @@ fn every_spec_of_the_project_is_accepted_without_a_word() {
     }
 }
 
-/// The TOML blocks of the language reference are one spec, and those marked so are specs of their own.
-#[test]
-fn the_language_reference_compiles() {
-    let page = std::fs::read_to_string(folder("../docs/language.md")).unwrap();
-    let blocks = |fence: &str| -> Vec<String> {
-        page.split(fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
-    };
-    let model = |name: &str, text: &str| {
-        let parsed = parse_text(Path::new(name), text);
-        assert_eq!(render(&parsed.diagnostics, &parsed.sources, false), "");
-        parsed.model.unwrap()
-    };
-    let wheel = model("rimless_wheel.toml", &blocks("```toml\n").concat());
-    assert_eq!((wheel.measures.len(), wheel.problems.len()), (4, 1));
-    let [sled] = &blocks("```toml spec\n")[..] else { panic!("one spec of its own") };
-    let sled = model("sled.toml", sled);
-    assert!(sled.modes[0].mass.is_some() && sled.transitions[0].also_zero.len() == 1);
-    let ([part], [using]) = (&blocks("```toml part\n")[..], &blocks("```toml using\n")[..]) else {
-        panic!("one of each")
-    };
-    let parts = [("parts/spring.toml", part.as_str())];
-    let bouncer = parse_with(Path::new("bouncer.toml"), using, Library::Texts(&parts));
-    assert_eq!(render(&bouncer.diagnostics, &bouncer.sources, false), "");
-    let names: Vec<String> = bouncer.model.unwrap().parameters.into_iter().map(|parameter| parameter.name).collect();
-    assert_eq!(names, ["m", "g", "k", "l0"]);
-}
-
 /// What is said of each file of `tests/wrong` stands beside it. `GAITC_BLESS=1` writes what is said now, and fails.
 #[test]
 fn wrong_specs_are_explained() {

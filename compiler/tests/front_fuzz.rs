@@ -8,11 +8,13 @@
 #![allow(clippy::print_stderr)] // what a long run found
 
 mod fuzz;
+mod reference;
 
 use gaitc_compiler::diagnostic::{locate, render};
 use gaitc_compiler::front::{Library, parse_with};
 use gaitc_compiler::ir::canonical::fingerprint;
 use gaitc_compiler::valid::validate;
+use reference::blocks;
 use std::io::{Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -44,20 +46,22 @@ fn files(relative: &str) -> Vec<(String, String)> {
     files
 }
 
+/// The name of a spec's file.
+fn file_name(spec: &str) -> String {
+    let name = spec.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next());
+    format!("{}.toml", name.unwrap())
+}
+
 /// Right specs and the examples of the documentation, how many these are, then parts and wrong specs.
 fn seeds() -> (Vec<(String, String)>, usize) {
     let mut seeds = files("../specs");
     seeds.extend(files("tests/golden"));
-    let page = std::fs::read_to_string(folder("../docs/language.md")).unwrap();
-    let blocks = |fence: &str| -> Vec<String> {
-        page.split(fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
-    };
-    seeds.push(("rimless_wheel.toml".to_owned(), blocks("```toml\n").concat()));
-    for (name, fence) in
-        [("sled.toml", "```toml spec\n"), ("bouncer.toml", "```toml using\n"), ("spring.toml", "```toml part\n")]
-    {
-        seeds.extend(blocks(fence).into_iter().map(|text| (name.to_owned(), text)));
+    let pages = reference::pages();
+    seeds.push(("rimless_wheel.toml".to_owned(), blocks(&pages, "```toml\n").concat()));
+    for fence in ["```toml spec\n", "```toml using\n"] {
+        seeds.extend(blocks(&pages, fence).into_iter().map(|text| (file_name(&text), text)));
     }
+    seeds.extend(blocks(&pages, "```toml part\n").into_iter().map(|text| (SPRING.to_owned(), text)));
     let right = seeds.len() - 1;
     for relative in ["../specs/parts", "tests/wrong", "tests/wrong/parts"] {
         seeds.extend(files(relative));

@@ -1,10 +1,13 @@
 //! The JSON Schema accepts whatever the reader accepts, refuses what it refuses for its form, and is the committed one.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed unwrap fails the test
 
+mod reference;
+
 use gaitc_compiler::diagnostic::Code;
 use gaitc_compiler::front::{Library, parse_with};
 use gaitc_compiler::schema;
 use jsonschema::Validator;
+use reference::blocks;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -42,15 +45,6 @@ fn accepts(validator: &Validator, text: &str, what: &str) {
     assert!(complaints.is_empty(), "{what}: {complaints:#?}");
 }
 
-/// The TOML blocks of a page that begin with a fence.
-fn blocks(page: &str, fence: &str) -> Vec<String> {
-    let page = std::fs::read_to_string(folder("../docs").join(page)).unwrap();
-    let blocks: Vec<String> =
-        page.split(fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect();
-    assert!(!blocks.is_empty(), "no `{fence}`");
-    blocks
-}
-
 #[test]
 fn every_right_spec_is_valid() {
     let (spec, part) = (validator(&schema::spec()), validator(&schema::part()));
@@ -60,12 +54,14 @@ fn every_right_spec_is_valid() {
     for path in toml_files("../specs/parts") {
         accepts(&part, &std::fs::read_to_string(&path).unwrap(), &path.display().to_string());
     }
-    accepts(&spec, &blocks("language.md", "```toml\n").concat(), "the language's reference");
-    for text in blocks("language.md", "```toml spec\n").iter().chain(&blocks("language.md", "```toml using\n")) {
+    let pages = reference::pages();
+    accepts(&spec, &blocks(&pages, "```toml\n").concat(), "the language's reference");
+    for text in blocks(&pages, "```toml spec\n").iter().chain(&blocks(&pages, "```toml using\n")) {
         accepts(&spec, text, "a spec of the language's reference");
     }
-    blocks("language.md", "```toml part\n").iter().for_each(|text| accepts(&part, text, "a part"));
-    let own = blocks("own_project.md", "```toml\nspec = 1\n");
+    blocks(&pages, "```toml part\n").iter().for_each(|text| accepts(&part, text, "a part"));
+    let own = std::fs::read_to_string(folder("../docs/own_project.md")).unwrap();
+    let own = blocks(&own, "```toml\nspec = 1\n");
     own.iter().for_each(|text| accepts(&spec, &format!("spec = 1\n{text}"), "the spec of a new project"));
 }
 

@@ -10,6 +10,7 @@ use crate::front::names::suggest;
 use crate::front::parser::shortened;
 use crate::front::read::list;
 use crate::front::spec::{Equation, Mode, Named, Spec, Transition};
+use crate::front::syntax::ExprKind;
 use crate::front::text::Text;
 use crate::ir::{self, Binary, Node, NodeId, Symbol, Unary};
 use crate::source::Span;
@@ -189,8 +190,35 @@ impl Lowering<'_> {
     }
 
     pub(super) fn guard(&mut self, guard: &Equation, rates: Rates) -> Option<Value> {
+        if self.is_condition(guard) {
+            return None;
+        }
         let value = self.equation(guard, Place::Event(rates))?;
         self.moves(value, guard, "this guard").then_some(value)
+    }
+
+    /// Whether a guard is a condition, where a number that passes through zero is expected; reports one that is.
+    fn is_condition(&mut self, guard: &Equation) -> bool {
+        let root = guard.expression.as_ref().map(|expression| &expression.root);
+        let Some(root) =
+            root.filter(|root| matches!(root.kind, ExprKind::Compare(..) | ExprKind::Logic(..) | ExprKind::Not(_)))
+        else {
+            return false;
+        };
+        let error = Diagnostic::error(Code::Condition, "a guard is a number that passes through zero, not a condition");
+        let help = match &root.kind {
+            ExprKind::Compare(comparison, a, b) => {
+                let direction = if comparison.is_less() { "falling" } else { "rising" };
+                let [a, b] = [a, b].map(|side| self.sources.slice(side.span));
+                match b.trim() {
+                    "0" => format!("write `{}` with `direction = \"{direction}\"`", shortened(a)),
+                    b => format!("write `{} - ({})` with `direction = \"{direction}\"`", shortened(a), shortened(b)),
+                }
+            }
+            _ => "write what vanishes when it happens, as in `length - reach`, and the conditions in `when`".to_owned(),
+        };
+        self.diagnostics.push(error.at(root.span, "").help(help));
+        true
     }
 
     /// Whether a function that is to pass through zero depends on state or time; reports one that does not.

@@ -86,6 +86,14 @@ impl Lowering<'_> {
                 self.diagnostics.push(error.help("remove the equation, or the coordinate"));
                 continue;
             }
+            if has_state.is_some_and(|has| has.get(state) == Some(&false)) {
+                // It is 0 there: measures rely on it.
+                let message =
+                    format!("the mode in which the section stands does not have the state `{}`", equation.name);
+                let error = Diagnostic::error(Code::SuperfluousEquation, message).at(equation.span, "");
+                self.diagnostics.push(error.help("remove its embedding"));
+                continue;
+            }
             given[state] = true;
             embed[state] = node.unwrap_or(zero);
         }
