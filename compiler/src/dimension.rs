@@ -15,7 +15,8 @@ pub struct Exponent {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dimension(pub [Exponent; 7]);
 
-const SYMBOLS: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "cd"];
+/// The base units, in the order of the exponents.
+pub(crate) const SYMBOLS: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "cd"];
 
 #[allow(clippy::should_implement_trait)] // these return None on overflow, the operators cannot
 impl Exponent {

@@ -1,5 +1,6 @@
 //! Printing a value in the unit that the user wrote: `20 deg`, `13 cm`, `18.85 rad/s`.
 
+use super::si::si_unit;
 use super::units::parse_unit;
 use crate::dimension::Dimension;
 
@@ -16,9 +17,9 @@ pub fn format_quantity(value_si: f64, unit_text: &str) -> String {
     }
 }
 
-/// The SI value in SI base units, e.g. `9.81 m s^-2`; a pure number without unit.
+/// The SI value in the SI unit that people use, e.g. `9.81 m/s^2`, `3 N s/m`; a pure number without unit.
 pub fn format_si(value: f64, dimension: Dimension) -> String {
-    if dimension.is_none() { format_number(value) } else { format!("{} {dimension}", format_number(value)) }
+    with_unit(value, &si_unit(dimension))
 }
 
 /// The SI value `value_si` as a number of `unit_text`; unchanged where that is no unit.

@@ -17,6 +17,7 @@ pub(crate) mod parser;
 mod parts;
 pub(crate) mod quantity;
 pub(crate) mod read;
+mod si;
 pub(crate) mod spec;
 pub(crate) mod syntax;
 pub(crate) mod text;

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 /// All pages, one after the other.
-pub fn pages() -> String {
+pub(crate) fn pages() -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/language");
     let page = |name: &str| std::fs::read_to_string(folder.join(name)).expect(name);
     let first = page("README.md");
@@ -14,7 +14,7 @@ pub fn pages() -> String {
 }
 
 /// The fenced blocks of a text that begin with `fence`.
-pub fn blocks(text: &str, fence: &str) -> Vec<String> {
+pub(crate) fn blocks(text: &str, fence: &str) -> Vec<String> {
     let blocks: Vec<String> =
         text.split(fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect();
     assert!(!blocks.is_empty(), "no `{fence}`");

@@ -1,8 +1,9 @@
 //! Syntax trees to nodes: literals, names and arithmetic, with the dimension of each.
 
 use super::definitions::undefined;
+use super::dimension_text;
 use super::fold;
-use super::lowering::{Context, Lowering, dimension_text};
+use super::lowering::{Context, Lowering};
 use super::scope::{Definition, Entity};
 use super::value::{Place, Uses, Value};
 use crate::diagnostic::{Code, Diagnostic};

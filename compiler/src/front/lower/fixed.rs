@@ -1,6 +1,7 @@
 //! Parameters of parts that their user has fixed: what takes the place of one has its dimension and is as constant.
 
-use super::lowering::{Lowering, dimension_text};
+use super::dimension_text;
+use super::lowering::Lowering;
 use super::value::{Uses, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::quantity::Quantities;

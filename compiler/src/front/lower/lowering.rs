@@ -1,6 +1,7 @@
 //! The state of lowering: the model that grows, the names, and what has been lowered already.
 
 use super::definitions::{Definitions, Lets};
+use super::dimension_text;
 use super::scope::Scope;
 use super::value::{Place, Value};
 use crate::diagnostic::{Code, Diagnostic};
@@ -169,9 +170,4 @@ impl<'a> Lowering<'a> {
             format!("`{text}`")
         }
     }
-}
-
-/// A dimension in words.
-pub(crate) fn dimension_text(dimension: Dimension) -> String {
-    if dimension.is_none() { "dimensionless".to_owned() } else { dimension.to_string() }
 }

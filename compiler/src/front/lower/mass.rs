@@ -1,6 +1,7 @@
 //! Mass matrices: M(x) x' = flow. Rows that a mode does not give are the identity's.
 
-use super::lowering::{Lowering, dimension_text};
+use super::dimension_text;
+use super::lowering::Lowering;
 use super::value::Place;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::Dimension;

@@ -28,12 +28,13 @@ mod surfaces;
 mod unused;
 mod value;
 
+pub(crate) use super::si::dimension_text;
 use super::spec::Spec;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Graph, Model};
 use crate::source::SourceMap;
 pub(crate) use definitions::Definitions;
-pub(crate) use lowering::{Context, Lowering, dimension_text};
+pub(crate) use lowering::{Context, Lowering};
 pub(crate) use scope::Scope;
 pub(crate) use value::Place;
 
