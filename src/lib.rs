@@ -2,7 +2,6 @@
 //! with them periodic gaits, their stability, and the fastest stable climber.
 
 pub mod cli;
-pub mod closing;
 pub mod load;
 pub mod models;
 pub mod problem;

@@ -24,6 +24,7 @@ static INFO: ModelInfo = ModelInfo {
     symmetric: false,
     functionals: &[Functional::Mean(0), Functional::Maximum(0)],
     measures: &[NUMBER, NUMBER],
+    returning: &[],
     uses_time: false,
     explicit: true,
 };

@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
+mod common;
 mod maps;
 
 use approx::assert_abs_diff_eq;
+use common::json;
 use maps::{Machine, until};
 
 const G: f64 = 9.81;
@@ -73,4 +75,27 @@ fn the_gait_is_symmetric_in_time() {
         let flight = (2.0 / G * (gait.coordinates[0] - machine.value("l_0") * machine.value("alpha").sin())).sqrt();
         assert_abs_diff_eq!(touch_down.time, flight, epsilon = 1e-12);
     }
+}
+
+/// A slow runner bounces back from its leg: the apex repeats in height, and the mirrored speed is what comes next.
+#[test]
+fn a_bounce_is_no_gait() {
+    let (code, gait) = json(&["gait", "slip_runner", "--set", "speed=3 m/s"]);
+    assert_eq!((code, gait["status"].as_str()), (2, Some("not_closed")), "{gait:#}");
+    let message = gait["message"].as_str().unwrap();
+    assert!(message.contains("`v_x` begins at 1.51") && message.contains("ends at -1.51"), "{message}");
+    assert!(gait["multipliers"].is_null());
+    let (code, best) = json(&[
+        "optimize",
+        "slip_runner",
+        "--set",
+        "speed=4 m/s",
+        "--maximize",
+        "step_frequency",
+        "--vary",
+        "k=15..25 kN/m",
+    ]);
+    // The search leaves the bounce for a runner that runs.
+    assert_eq!((code, best["status"].as_str()), (0, Some("optimal")), "{best:#}");
+    assert!(best["measures"]["least_speed"].as_f64().unwrap() > 1.0, "{best:#}");
 }

@@ -33,6 +33,18 @@ fn every_spec_of_the_project_is_accepted_without_a_word() {
     }
 }
 
+/// Right in unusual ways: guards that a symmetry turns around, transitions that are each other's image, phases that a symmetry
+/// shifts, guards that are small differences of large terms.
+#[test]
+fn unusual_specs_are_accepted_without_a_word() {
+    let files = toml_files(&folder("tests/right"));
+    assert!(files.len() >= 6);
+    for path in files {
+        let parsed = parse_here(&path);
+        assert_eq!(render(&parsed.diagnostics, &parsed.sources, false), "", "{}", path.display());
+    }
+}
+
 /// What is said of each file of `tests/wrong` stands beside it. `GAITC_BLESS=1` writes what is said now, and fails.
 #[test]
 fn wrong_specs_are_explained() {

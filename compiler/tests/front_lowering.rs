@@ -367,3 +367,14 @@ fn comparisons_of_memory_are_exact() {
         }
     }
 }
+
+/// What a gait has to lead back: not its coordinates, and not what nothing depends on.
+#[test]
+fn states_that_something_depends_on_have_to_return() {
+    let text = "spec = 1\nname = \"m\"\n[parameters]\nk = \"3 1/s^2\"\n[state]\nway = { unit = \"m\" }\nx = { unit = \"m\" }\n\
+                v = { unit = \"m/s\" }\n[modes.go.flow]\nway = \"v\"\nx = \"v\"\nv = \"-k*x\"\n[transitions.step]\nfrom = \"go\"\n\
+                to = \"go\"\nguard = \"v\"\ndirection = \"falling\"\nreset = { way = \"way\", x = \"-x\", v = \"1 [m/s]\" }\n\
+                [section]\nafter = \"step\"\ncoordinates = [\"v\"]\nembed = { way = \"0\", x = \"0\" }\nstart = { v = \"1 m/s\" }\n";
+    let model = parse_text(Path::new("m.toml"), text).model.unwrap();
+    assert_eq!(gaitc_compiler::valid::validate(model).unwrap().facts().returning, [1]);
+}

@@ -361,6 +361,8 @@ pub struct ModelInfo {
     pub coordinates: &'static [usize],
     /// Section: where it stands; `None` when the model has no section.
     pub section: Option<Section>,
+    /// Section: state indices, coordinates left out, of what a gait has to lead back: everything that the motion depends on.
+    pub returning: &'static [usize],
     /// Whether the section has a symmetry.
     pub symmetric: bool,
     /// Functionals, in the order that `measures` takes them.

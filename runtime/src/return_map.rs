@@ -5,6 +5,7 @@
 //! after the next one.
 
 pub use crate::also_zero::{AlsoZeroAt, Passage};
+pub use crate::closing::Open;
 use crate::model::ModelInfo;
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;

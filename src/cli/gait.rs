@@ -3,7 +3,6 @@
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
 use super::{InputError, Outcome, inputs, output};
-use crate::closing::open_states;
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
@@ -64,6 +63,7 @@ impl Report<'_> {
     fn status(&self) -> &'static str {
         match &self.outcome.status {
             GaitStatus::Converged => "converged",
+            GaitStatus::Open(_) => "not_closed",
             GaitStatus::NotConverged => "not_converged",
             GaitStatus::Stopped(stop) => match stop.reason {
                 StopReason::NoEvent => "no_event",
@@ -139,7 +139,6 @@ impl Report<'_> {
         let mut all = self.warnings.clone();
         if let Some(gait) = self.gait() {
             all.extend(gait.map.warnings.iter().map(|w| self.warning(w)));
-            all.extend(open_states(&self.loaded.spec, gait.map.state.as_slice(), gait.map.end.as_slice()));
             let measures = self.loaded.spec.measures.iter().zip(gait.map.measures.iter());
             let undefined = measures.filter(|(_, value)| !value.is_finite());
             all.extend(

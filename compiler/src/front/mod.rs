@@ -31,6 +31,7 @@ pub use format::{format_number, format_quantity, format_si, in_unit};
 pub use names::{is_module_name, suggest};
 pub use parts::Library;
 use parts::Loader;
+pub use si::si_unit;
 use std::path::Path;
 
 /// Largest spec in bytes.

@@ -8,7 +8,7 @@ const NAMED: &[&str] =
     &["N", "J", "W", "Pa", "V", "C", "F", "ohm", "S", "Wb", "T", "H", "N/m", "N s/m", "W/m", "W/s", "N/s"];
 
 /// A unit of SI value 1: one that has a name, else a quotient of base units such as `kg m^2/s`; `1` for a pure number.
-pub(crate) fn si_unit(dimension: Dimension) -> String {
+pub fn si_unit(dimension: Dimension) -> String {
     named(dimension).map_or_else(|| quotient(dimension), str::to_owned)
 }
 

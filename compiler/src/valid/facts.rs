@@ -29,6 +29,8 @@ pub struct Facts {
     pub mode_switches: Vec<Vec<usize>>,
     /// The same with those that the functionals depend on.
     pub measured_switches: Vec<Vec<usize>>,
+    /// States of the section, coordinates left out, that a gait has to lead back: those that something else depends on.
+    pub returning: Vec<usize>,
     /// Whether every mode gives its state derivative explicitly (no mass matrix).
     pub explicit: bool,
     /// Whether the equations depend on the time since the start of the run.
@@ -56,10 +58,36 @@ impl Facts {
             references,
             mode_switches: (0..model.modes.len()).map(|mode| switches(mode, &[])).collect(),
             measured_switches: (0..model.modes.len()).map(|mode| switches(mode, &measured)).collect(),
+            returning: returning(model),
             explicit: model.modes.iter().all(|mode| mode.mass.is_none()),
             uses_time: model.graph.depends(&equation_roots(model), |symbol| symbol == Symbol::Time),
         })
     }
+}
+
+/// States of the section that matter and are no coordinates.
+fn returning(model: &Model) -> Vec<usize> {
+    let Some(section) = &model.section else { return Vec::new() };
+    let mode = section.mode(&model.transitions).and_then(|mode| model.modes.get(mode));
+    let there = |i: usize| mode.is_some_and(|mode| mode.has_state.get(i) == Some(&true));
+    let states = 0..model.states.len();
+    states.filter(|&i| there(i) && !section.coordinates.contains(&i) && matters(model, i)).collect()
+}
+
+/// Whether anything that happens depends on a state, its own reset left out.
+fn matters(model: &Model, state: usize) -> bool {
+    let mut roots: Vec<NodeId> = Vec::new();
+    for mode in &model.modes {
+        roots.extend(&mode.flow);
+        roots.extend(mode.mass.iter().flatten().flatten());
+    }
+    for transition in &model.transitions {
+        roots.extend(transition.when.into_iter().chain([transition.guard]));
+        roots.extend(transition.reset.iter().enumerate().filter(|(i, _)| *i != state).map(|(_, &reset)| reset));
+        roots.extend(&transition.memory_reset);
+    }
+    roots.extend(model.switches.iter().map(|switch| switch.expr));
+    model.graph.depends(&roots, |symbol| symbol == Symbol::State(state))
 }
 
 /// Integrals, observables, and for each functional what it refers to.

@@ -42,13 +42,13 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "g",
-            si: "m s^-2",
+            si: "m/s^2",
         },
     ],
     states: &[
         model::Quantity {
             name: "v",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "w",
@@ -94,6 +94,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     switches: &[],
     coordinates: &[0, 1],
     section: ::core::option::Option::Some(model::Section::After(0)),
+    returning: &[2],
     symmetric: false,
     functionals: &[
         model::Functional::Maximum(0),
@@ -112,15 +113,15 @@ static INFO: model::ModelInfo = model::ModelInfo {
     measures: &[
         model::Quantity {
             name: "push",
-            si: "m s^-2",
+            si: "m/s^2",
         },
         model::Quantity {
             name: "lift",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "change",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "square",

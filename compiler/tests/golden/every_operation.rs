@@ -95,6 +95,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     switches: &["x >= 0", "max(x, Y)", "min(x, a)", "Y >= a"],
     coordinates: &[2, 0],
     section: ::core::option::Option::Some(model::Section::After(0)),
+    returning: &[1],
     symmetric: true,
     functionals: &[
         model::Functional::Integral(0),

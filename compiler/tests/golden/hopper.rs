@@ -34,7 +34,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     parameters: &[
         model::Quantity {
             name: "g",
-            si: "m s^-2",
+            si: "m/s^2",
         },
         model::Quantity {
             name: "omega",
@@ -42,7 +42,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "v_hard",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "c",
@@ -56,7 +56,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "v",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "q",
@@ -64,7 +64,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "u",
-            si: "m s^-1",
+            si: "m/s",
         },
     ],
     memory: &["n"],
@@ -106,6 +106,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     switches: &["n > 0", "abs(v)", "abs(u)"],
     coordinates: &[1],
     section: ::core::option::Option::Some(model::Section::After(2)),
+    returning: &[0],
     symmetric: false,
     functionals: &[
         model::Functional::Maximum(0),

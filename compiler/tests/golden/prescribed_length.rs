@@ -46,7 +46,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "g",
-            si: "m s^-2",
+            si: "m/s^2",
         },
         model::Quantity {
             name: "psi",
@@ -64,7 +64,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "p_theta",
-            si: "m s^-1",
+            si: "m/s",
         },
     ],
     memory: &["n"],
@@ -87,6 +87,7 @@ static INFO: model::ModelInfo = model::ModelInfo {
     switches: &["tau <= pi/omega", "abs(v_x)", "abs(rho_a)", "max(power, 0)"],
     coordinates: &[0, 1],
     section: ::core::option::Option::Some(model::Section::After(0)),
+    returning: &[],
     symmetric: true,
     functionals: &[
         model::Functional::Mean(0),
@@ -99,11 +100,11 @@ static INFO: model::ModelInfo = model::ModelInfo {
     measures: &[
         model::Quantity {
             name: "climb_speed",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "lateral_speed",
-            si: "m s^-1",
+            si: "m/s",
         },
         model::Quantity {
             name: "stride_frequency",
@@ -115,11 +116,11 @@ static INFO: model::ModelInfo = model::ModelInfo {
         },
         model::Quantity {
             name: "peak_force",
-            si: "m kg s^-2",
+            si: "N",
         },
         model::Quantity {
             name: "mean_power",
-            si: "m^2 kg s^-3",
+            si: "W",
         },
         model::Quantity {
             name: "cost_of_transport",

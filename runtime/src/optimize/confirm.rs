@@ -39,6 +39,10 @@ pub(super) fn confirm(problem: &Problem<'_>, claim: &Claim<'_>) -> Result<Confir
         ..Confirmation::default()
     };
     let relative = problem.settings.accuracy.relative;
+    let info = problem.map.info();
+    if let Some(open) = fresh.open(info, relative) {
+        return Err(open.describe(info));
+    }
     check(found.residual, f64::max(1e-8, 1e3 * relative), "the gait does not return to itself")?;
     check(found.measures, f64::max(1e-6, 1e4 * relative), "a measure differs")?;
     let jacobian = claim.map.jacobian.columns(0, z.len()).into_owned();

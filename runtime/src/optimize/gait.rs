@@ -14,6 +14,8 @@ pub(super) enum NoGait {
     Stopped(Stop),
     /// Newton ends where P(z) - z is still this large.
     NotConverged(f64),
+    /// The coordinates repeat, another state does not: in words.
+    Open(String),
     /// The problem is wrong.
     Wrong(ProblemError),
 }
@@ -55,6 +57,7 @@ pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> 
     match (outcome.status, outcome.gait) {
         (GaitStatus::Converged, Some(gait)) => Ok(gait.coordinates.as_slice().to_vec()),
         (GaitStatus::Stopped(stop), _) => Err(NoGait::Stopped(stop)),
+        (GaitStatus::Open(open), _) => Err(NoGait::Open(open.describe(problem.map.info()))),
         _ => Err(NoGait::NotConverged(outcome.residual)),
     }
 }

@@ -139,6 +139,7 @@ impl fmt::Display for NoGait {
             Self::NotConverged(residual) => {
                 write!(f, "Newton's method ends where a map still moves the start by {residual:.1e}")
             }
+            Self::Open(text) => write!(f, "{text}"),
             Self::Wrong(error) => write!(f, "{error}"),
         }
     }

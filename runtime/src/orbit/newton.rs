@@ -5,8 +5,9 @@
 //! itself serve as new starts.
 
 use super::multipliers::{multipliers, spectral_radius};
+use crate::model::ModelInfo;
 use crate::return_map::{
-    Accuracy, MapOutcome, MapRequest, MapResult, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
+    Accuracy, MapOutcome, MapRequest, MapResult, Open, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
 };
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -58,6 +59,8 @@ pub enum GaitStatus {
     Converged,
     /// The map has no next section crossing where the search stands.
     Stopped(Stop),
+    /// The coordinates repeat, but a state that the motion depends on does not.
+    Open(Open),
     /// The search came to no fixed point.
     NotConverged,
 }
@@ -81,6 +84,8 @@ pub struct GaitOutcome {
 const OTHER_STEPS: f64 = 1e3;
 /// A step that has become so much shorter than that of the guess is on its way to no length at all.
 const COLLAPSED: f64 = 1e-5;
+/// A point that returns to itself within this part of its size is a gait, whatever its step's length.
+const FIXED: f64 = 1e-6;
 /// How often a Newton step is halved.
 const HALVINGS: usize = 20;
 /// How many iterates of the map serve as further starts.
@@ -111,7 +116,7 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
             Ok(point) => {
                 let usual = *usual.get_or_insert(point.map.duration);
                 let point = search.newton(point, &mut iterations)?;
-                if point.map.duration <= COLLAPSED * usual {
+                if point.map.duration <= COLLAPSED * usual && !point.is_fixed() {
                     return Ok(collapsed(point, iterations));
                 }
                 if best.as_ref().is_none_or(|b| point.residual < b.residual) {
@@ -139,6 +144,13 @@ struct Point {
     z: DVector<f64>,
     map: MapResult,
     residual: f64,
+}
+
+impl Point {
+    /// Whether it returns to itself to a small part of its own size, however small that is.
+    fn is_fixed(&self) -> bool {
+        self.z.iter().zip(&self.map.coordinates).all(|(a, b)| (b - a).abs() <= FIXED * a.abs())
+    }
 }
 
 struct Search<'a> {
@@ -235,12 +247,15 @@ impl Search<'_> {
             }
         }
         let converged = residual <= self.request.tolerance;
-        let status = match stop {
+        let (info, relative) = (self.map.info(), self.request.accuracy.relative);
+        let open = gait.as_ref().filter(|_| converged).and_then(|gait| gait.map.open(info, relative));
+        let status = match (open, stop) {
+            (Some(open), _) => GaitStatus::Open(open),
             _ if converged => GaitStatus::Converged,
-            Some(stop) if gait.is_none() => GaitStatus::Stopped(stop),
+            (_, Some(stop)) if gait.is_none() => GaitStatus::Stopped(stop),
             _ => GaitStatus::NotConverged,
         };
-        let message = message(&status, residual, self.request.tolerance);
+        let message = message(info, &status, residual, self.request.tolerance);
         Ok(GaitOutcome { status, message, gait, residual, iterations })
     }
 
@@ -300,8 +315,9 @@ fn newton_step(point: &Point) -> Option<DVector<f64>> {
     svd.solve(&right, cut).ok().filter(|step| step.iter().all(|v| v.is_finite()))
 }
 
-fn message(status: &GaitStatus, residual: f64, tolerance: f64) -> String {
+fn message(info: &ModelInfo, status: &GaitStatus, residual: f64, tolerance: f64) -> String {
     match status {
+        GaitStatus::Open(open) => format!("no gait: {}", open.describe(info)),
         GaitStatus::Converged => format!("the step maps onto itself to {residual:.1e}"),
         GaitStatus::Stopped(stop) => format!(
             "the map has no next section crossing from the guess: {} after {:.4} s; try another guess or other parameters",

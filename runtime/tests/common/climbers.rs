@@ -35,6 +35,7 @@ pub const BLANK: ModelInfo = ModelInfo {
     symmetric: false,
     functionals: &[],
     measures: &[],
+    returning: &[],
     uses_time: false,
     explicit: true,
 };

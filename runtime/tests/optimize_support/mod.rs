@@ -131,6 +131,7 @@ impl Closed {
             symmetric: false,
             functionals: &[],
             measures: quantities(measures),
+            returning: &[],
             uses_time: false,
             explicit: true,
         };

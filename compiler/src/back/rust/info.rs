@@ -3,6 +3,7 @@
 use super::values::one_line;
 use super::{Context, text};
 use crate::dimension::Dimension;
+use crate::front::si_unit;
 use crate::ir::{AlsoZero, Direction, FunctionalKind};
 use crate::valid::Reference;
 use proc_macro2::TokenStream;
@@ -39,6 +40,7 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
         }
         None => quote!(::core::option::Option::None),
     };
+    let returning = facts.returning.iter().map(|&i| text::count(i));
     let symmetric = model.section.as_ref().is_some_and(|s| s.symmetry.is_some());
     let functionals = model.functionals.iter().zip(&facts.references).map(|(f, &r)| functional(f.kind, r));
     let (uses_time, explicit) = (facts.uses_time, facts.explicit);
@@ -55,6 +57,7 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
             switches: &[#(#switches),*],
             coordinates: &[#(#coordinates),*],
             section: #section,
+            returning: &[#(#returning),*],
             symmetric: #symmetric,
             functionals: &[#(#functionals),*],
             measures: &[#(#measures),*],
@@ -65,7 +68,7 @@ pub(super) fn info(context: &Context<'_>, fingerprint: &str) -> TokenStream {
 }
 
 fn quantity(name: &str, dimension: Dimension) -> TokenStream {
-    let si = dimension.to_string();
+    let si = si_unit(dimension);
     quote!(model::Quantity { name: #name, si: #si })
 }
 

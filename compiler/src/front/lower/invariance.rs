@@ -1,15 +1,15 @@
 //! Whether a model is invariant under the symmetry of its section, S: evaluated at points around the section.
 //!
 //! With the memory n of the run and n' of its image, S carries motions into motions where f_n'(S x) = DS f_n(x) in each mode
-//! (M(S x) DS k = f_n'(S x) for rates k with M k = f where there is a mass matrix), guards are the same up to a positive
-//! factor, and resets follow: R_n'(S x) = S R_n(x). Only then is a fixed point of the mirrored map a gait. Which memory the image
+//! (M(S x) DS k = f_n'(S x) for rates k with M k = f where there is a mass matrix), each transition has an image, itself or
+//! another one, whose guard is the same up to a factor of the right sign, and resets follow: R_n'(S x) = S R_n(x). Only then is a fixed point of the mirrored map a gait. Which memory the image
 //! has is not said; it is looked for among those that one or two transitions make of the initial one.
 
 use super::sample;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::spec::Spec;
 use crate::ir::eval::{Environment, derivative, value};
-use crate::ir::{Model, NodeId, Section, Symbol};
+use crate::ir::{Direction, Model, NodeId, Section, Symbol};
 use crate::source::Span;
 
 /// Differences below this part of the terms are rounding.
@@ -26,6 +26,16 @@ enum Broken {
     Reset { transition: usize, state: usize },
 }
 
+impl Broken {
+    /// The state in question.
+    const fn state(self) -> Option<usize> {
+        match self {
+            Self::Flow { state, .. } | Self::Reset { state, .. } => Some(state),
+            Self::Guard(_) => None,
+        }
+    }
+}
+
 /// Warns about a symmetry under which a spec without errors is not invariant.
 pub(super) fn check(spec: &Spec, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
     let Some(section) = &model.section else { return };
@@ -35,8 +45,10 @@ pub(super) fn check(spec: &Spec, model: &Model, diagnostics: &mut Vec<Diagnostic
     let (what, span) = describe(spec, model, broken);
     let message = format!("the model is not invariant under its symmetry: {what} does not follow");
     let place = spec.section.as_ref().map(|section| section.span);
-    let mirrored = spec.section.iter().flat_map(|section| section.symmetry.iter().flatten()).next();
-    let Some(place) = mirrored.map(|equation| equation.span).or(place) else { return };
+    let lines = || spec.section.iter().flat_map(|section| section.symmetry.iter().flatten());
+    let name = broken.state().and_then(|state| model.states.get(state)).map(|state| state.name.as_str());
+    let line = lines().find(|equation| Some(equation.name.as_str()) == name).or_else(|| lines().next());
+    let Some(place) = line.map(|equation| equation.value.text.span).or(place) else { return };
     let warning = Diagnostic::warning(Code::NotInvariant, message).at(place, "the symmetry");
     let warning = span.map_or(warning.clone(), |span| warning.see(span, "the equation"));
     let help = "a fixed point of the mirrored map is then no gait; look for a missing sign, or for a memory, as in `(-1)^n`, that \
@@ -55,7 +67,8 @@ fn describe(spec: &Spec, model: &Model, broken: Broken) -> (String, Option<Span>
         }
         Broken::Guard(i) => {
             let name = model.transitions.get(i).map_or("?", |transition| transition.name.as_str());
-            let guard = spec.transitions.get(i).and_then(|item| item.value.guard.as_ref());
+            let surface = || spec.surfaces.get(i.checked_sub(spec.transitions.len())?)?.value.guard.as_ref();
+            let guard = spec.transitions.get(i).and_then(|item| item.value.guard.as_ref()).or_else(surface);
             (format!("the guard of `{name}`"), guard.map(|guard| guard.text.span))
         }
         Broken::Reset { transition, state: i } => {
@@ -116,27 +129,46 @@ impl Check<'_> {
     }
 
     fn broken_with(&self, memory: &[f64], image_memory: &[f64]) -> Option<Broken> {
-        let mut ratios = vec![Vec::new(); self.model.transitions.len()];
-        for n in 0..sample::POINTS {
-            let states = sample::around_section(self.model, self.section, n);
-            let at = self.at(states, memory.to_vec(), n);
-            let image = self.at(self.image(&at.states), image_memory.to_vec(), n);
-            if !at.states.iter().chain(&image.states).all(|value| value.is_finite()) {
-                continue;
-            }
-            let flow = (0..self.model.modes.len()).find_map(|mode| self.flow(mode, &at, &image));
-            let reset = || (0..self.model.transitions.len()).find_map(|i| self.reset(i, &at, &image));
-            if let Some(broken) = flow.or_else(reset) {
-                return Some(broken);
-            }
-            for (ratios, transition) in ratios.iter_mut().zip(&self.model.transitions) {
-                let ratio = self.value(transition.guard, &image) / self.value(transition.guard, &at);
-                ratios.extend(Some(ratio).filter(|ratio| ratio.is_finite()));
-            }
+        let points: Vec<(At, At)> = (0..sample::POINTS)
+            .map(|n| {
+                let at = self.at(sample::around_section(self.model, self.section, n), memory.to_vec(), n);
+                let image = self.at(self.image(&at.states), image_memory.to_vec(), n);
+                (at, image)
+            })
+            .filter(|(at, image)| at.states.iter().chain(&image.states).all(|value| value.is_finite()))
+            .collect();
+        let modes = 0..self.model.modes.len();
+        let flow = points.iter().find_map(|(at, image)| modes.clone().find_map(|mode| self.flow(mode, at, image)));
+        flow.or_else(|| (0..self.model.transitions.len()).find_map(|i| self.without_image(i, &points)))
+    }
+
+    /// What is wrong with a transition that no transition is the image of. The image of the section's is itself: the map
+    /// ends there.
+    fn without_image(&self, index: usize, points: &[(At, At)]) -> Option<Broken> {
+        let own = self.not_image(index, index, points)?;
+        let others = 0..self.model.transitions.len();
+        let found = |&other: &usize| other != self.section.transition && self.not_image(index, other, points).is_none();
+        (index == self.section.transition || !others.into_iter().any(|other| found(&other))).then_some(own)
+    }
+
+    /// Why the transition `other` is not the image of `index`, if it is not.
+    fn not_image(&self, index: usize, other: usize, points: &[(At, At)]) -> Option<Broken> {
+        let (transition, image) = (self.model.transitions.get(index)?, self.model.transitions.get(other)?);
+        let same_modes = (transition.from, transition.to) == (image.from, image.to);
+        // The image passes zero in the direction that its transition asks for: the factor between the guards says which way.
+        let allowed = |ratio: f64| match (transition.direction, image.direction) {
+            (Direction::Either, Direction::Either) => ratio != 0.0,
+            (a, b) if a == b => ratio > 0.0,
+            (Direction::Either, _) | (_, Direction::Either) => false,
+            _ => ratio < 0.0,
+        };
+        let ratios = points.iter().map(|(at, of)| self.value(image.guard, of) / self.value(transition.guard, at));
+        let ratios: Vec<f64> = ratios.filter(|ratio| ratio.is_finite()).collect();
+        let same = |ratio: &f64| allowed(*ratio) && (ratio - ratios[0]).abs() <= 1e-6 * ratios[0].abs();
+        if !same_modes || !ratios.iter().all(same) {
+            return Some(Broken::Guard(index));
         }
-        let same =
-            |ratios: &Vec<f64>| ratios.iter().all(|r| *r > 0.0 && (r - ratios[0]).abs() <= 1e-6 * ratios[0].abs());
-        ratios.iter().position(|ratios| !same(ratios)).map(Broken::Guard)
+        points.iter().find_map(|(at, of)| self.reset((index, other), at, of))
     }
 
     fn at(&self, states: Vec<f64>, memory: Vec<f64>, n: u32) -> At {
@@ -232,11 +264,12 @@ impl Check<'_> {
         rates.iter().all(|rate| rate.is_finite()).then_some(rates)
     }
 
-    /// A state whose reset does not follow.
-    fn reset(&self, index: usize, at: &At, image: &At) -> Option<Broken> {
-        let transition = self.model.transitions.get(index)?;
-        let reset = |at: &At| -> Vec<f64> { transition.reset.iter().map(|&root| self.value(root, at)).collect() };
-        let (carried, made) = (self.image(&reset(at)), reset(image));
+    /// A state whose reset by a transition is not carried into that by its image.
+    fn reset(&self, (index, other): (usize, usize), at: &At, image: &At) -> Option<Broken> {
+        let (transition, of) = (self.model.transitions.get(index)?, self.model.transitions.get(other)?);
+        let values =
+            |roots: &[NodeId], at: &At| -> Vec<f64> { roots.iter().map(|&root| self.value(root, at)).collect() };
+        let (carried, made) = (self.image(&values(&transition.reset, at)), values(&of.reset, image));
         let has_state = &self.model.modes.get(transition.to)?.has_state;
         let differs = |i: &usize| {
             let (a, b) = (carried[*i], made[*i]);

@@ -1,6 +1,6 @@
 //! Whether the embedding lies on the section, as far as that can be seen without a run: where the section stands before a
 //! transition or on a surface, the guard is zero on it; where it stands after a transition, a state to which the reset gives
-//! a value of its own has that value.
+//! a value of its own has that value, and the guard is still zero if the reset keeps what it depends on.
 
 use super::clock::depends_on_tau;
 use super::sample;
@@ -8,21 +8,26 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::front::format_si;
 use crate::front::spec::{Anchor, Equation, Spec};
 use crate::ir::eval::{Environment, value};
-use crate::ir::{Model, Node, NodeId, Section, Symbol};
+use crate::ir::{Binary, Model, Node, NodeId, Section, Symbol};
 use crate::source::Span;
 
 /// Differences below this part of the values are rounding.
 const ROUNDING: f64 = 1e-9;
+/// Units in the last place of the largest term that a sum may be off.
+const UNITS: f64 = 1e3;
 
 /// Checks a spec without errors.
 pub(super) fn check(spec: &Spec, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
     let (Some(section), Some(written)) = (&model.section, &spec.section) else { return };
     let Some(transition) = model.transitions.get(section.transition) else { return };
     if matches!(written.anchor, Some(Anchor::After(_))) {
+        let before = diagnostics.len();
         for state in 0..model.states.len() {
             after(spec, model, section, state, diagnostics);
         }
-        return;
+        if diagnostics.len() > before || !keeps_guard(model, section) {
+            return;
+        }
     }
     let Some((n, off)) = off_the_guard(model, section, transition.guard) else { return };
     let message = format!("the embedding does not lie on the section: `{}` is not zero there", transition.guard_text);
@@ -69,12 +74,51 @@ fn off_the_guard(model: &Model, section: &Section, guard: NodeId) -> Option<(u32
         let at = Environment { states, parameters: &parameters, memory: &memory, ..Environment::default() };
         value(&model.graph, guard, &at)
     };
-    let on: Vec<f64> = (0..sample::POINTS).map(|n| of(&sample::on_section(model, section, n))).collect();
-    // How large the guard is elsewhere tells what is zero.
+    // How large the guard is elsewhere tells what is zero, and how large its terms are what is rounding.
     let elsewhere = (0..sample::POINTS).map(|n| of(&sample::around_section(model, section, n)).abs());
     let size = elsewhere.filter(|size| size.is_finite()).fold(0.0, f64::max);
-    let off = on.iter().enumerate().find(|(_, value)| value.is_finite() && value.abs() > ROUNDING * size);
-    off.map(|(n, value)| (n as u32, *value))
+    (0..sample::POINTS).find_map(|n| {
+        let states = sample::on_section(model, section, n);
+        let at = Environment { states: &states, parameters: &parameters, memory: &memory, ..Environment::default() };
+        let off = of(&states);
+        let rounding = UNITS * f64::EPSILON * largest_term(model, guard, &at);
+        (off.is_finite() && off.abs() > ROUNDING * size + rounding).then_some((n, off))
+    })
+}
+
+/// The largest magnitude among the operands of an expression's sums.
+fn largest_term(model: &Model, root: NodeId, at: &Environment<'_>) -> f64 {
+    let mut terms = Vec::new();
+    model.graph.visit(&[root], |_, node| {
+        if let Node::Binary(Binary::Add | Binary::Sub, a, b) = node {
+            terms.extend([a, b]);
+        }
+    });
+    terms
+        .into_iter()
+        .map(|term| value(&model.graph, term, at).abs())
+        .filter(|size| size.is_finite())
+        .fold(0.0, f64::max)
+}
+
+/// Whether the reset of the section's transition, and the symmetry, keep every state that the guard depends on: then it is
+/// zero after the transition as well.
+fn keeps_guard(model: &Model, section: &Section) -> bool {
+    let Some(transition) = model.transitions.get(section.transition) else { return false };
+    let is_state = |root: Option<&NodeId>, i: usize| {
+        root.is_some_and(|&root| model.graph.node(root) == Node::Symbol(Symbol::State(i)))
+    };
+    let mut keeps = true;
+    model.graph.visit(&[transition.guard], |_, node| match node {
+        Node::Symbol(Symbol::State(i)) => {
+            keeps &= is_state(transition.reset.get(i), i);
+            keeps &= section.symmetry.as_ref().is_none_or(|symmetry| is_state(symmetry.get(i), i));
+        }
+        // The memory has moved on.
+        Node::Symbol(Symbol::Memory(_) | Symbol::Rate(_)) => keeps = false,
+        _ => {}
+    });
+    keeps
 }
 
 /// Compares a state's embedding with its reset, where that depends on parameters alone.
