@@ -13,8 +13,10 @@ pub(super) fn print(text: &str) {
     let mut out = anstream::stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(problem) if problem.kind() != ErrorKind::BrokenPipe => {
-            error(&format!("the result could not be written: {problem}"));
-            LOST.store(true, Ordering::Relaxed);
+            // What follows is lost for the same reason.
+            if !LOST.swap(true, Ordering::Relaxed) {
+                error(&format!("the result could not be written: {problem}"));
+            }
         }
         _ => {}
     }
@@ -36,6 +38,14 @@ pub(super) fn error(message: &str) {
 pub(super) fn json(value: &impl Serialize) {
     // The values printed here have string keys only, so that serialisation cannot fail.
     print(&format!("{}\n", serde_json::to_string_pretty(value).unwrap_or_else(|e| format!("\"{e}\""))));
+}
+
+/// Where the meaning of a model's measures stands; nothing where it has none.
+pub(super) fn measures_hint(model: &gaitc_compiler::ir::Model) -> String {
+    match model.measures.is_empty() {
+        true => String::new(),
+        false => format!("what the measures mean: gaitc show {}\n", model.name),
+    }
 }
 
 /// A table without borders: first column to the left, numbers to the right.
