@@ -12,11 +12,9 @@ static LOST: AtomicBool = AtomicBool::new(false);
 pub(super) fn print(text: &str) {
     let mut out = anstream::stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(problem) if problem.kind() != ErrorKind::BrokenPipe => {
-            // What follows is lost for the same reason.
-            if !LOST.swap(true, Ordering::Relaxed) {
-                error(&format!("the result could not be written: {problem}"));
-            }
+        // Said once: what follows is lost for the same reason.
+        Err(problem) if problem.kind() != ErrorKind::BrokenPipe && !LOST.swap(true, Ordering::Relaxed) => {
+            error(&format!("the result could not be written: {problem}"));
         }
         _ => {}
     }

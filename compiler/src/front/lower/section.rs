@@ -38,11 +38,10 @@ impl Lowering<'_> {
             }
             _ => ("transition", spec.transitions.iter().map(|item| item.name.as_str()).collect(), 0),
         };
-        if !names.contains(&name.value.as_str()) {
-            if let Some(error) = other_anchor(spec, anchor) {
-                self.diagnostics.push(error);
-                return None;
-            }
+        let known = names.contains(&name.value.as_str());
+        if let Some(error) = other_anchor(spec, anchor).filter(|_| !known) {
+            self.diagnostics.push(error);
+            return None;
         }
         self.reference(kind, &name.value, name.span, &names).map(|i| first + i)
     }

@@ -54,8 +54,7 @@ fn mass(fields: &Fields<'_>, flow: &[Named<Equation>], sink: &mut Sink<'_>) -> V
             table.entries.iter().map(|entry| mass_row(entry, sink)).collect()
         }
         Some(value) => {
-            let example =
-                "mass = { x = \"m\", y = { x = \"m*l\", y = \"m*l^2\" } }`, each row by its state, not `[[...]]";
+            let example = "mass = { x = \"m\", y = { x = \"m*l\", y = \"m*l^2\" } }";
             sink.wrong_type(value, "mass", "a table", example);
             // Any row may have been meant: none is then taken for the identity's.
             let broken = |row: &Named<Equation>| Named {
