@@ -178,6 +178,30 @@ fn wrong_input_is_json_too() {
     assert!(value["message"].as_str().unwrap().contains("`nope`"));
 }
 
+#[test]
+fn wrong_arguments_are_json_too() {
+    for (args, said) in [
+        (&["gait"][..], "<MODEL>"),
+        (&["gait", "prescribed_length", "--tol", "abc"], "invalid value 'abc' for '--tol <NUMBER>'"),
+        (
+            &["optimize", "prescribed_length", "--maximize", "climb_speed", "--minimize", "climb_speed"],
+            "cannot be used with",
+        ),
+        (&["frobnicate"], "unrecognized subcommand 'frobnicate'"),
+        (&["check"], "<FILE>"),
+        (&[], "subcommand"),
+    ] {
+        let (code, value) = json(args);
+        assert_eq!((code, value["status"].as_str()), (1, Some("error")), "{value:#}");
+        let message = value["message"].as_str().unwrap();
+        assert!(message.contains(said) && !message.contains("Usage") && !message.starts_with("error"), "{message}");
+        let (_, stdout, stderr) = text(args);
+        assert!(stdout.is_empty() && stderr.contains("Usage") | stderr.contains("--help"), "{stdout}\n{stderr}");
+    }
+    // Behind `--` it is no flag.
+    assert_eq!(text(&["gait", "a", "--", "--json"]).1, "");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_result_that_cannot_be_written_is_a_failure() {
@@ -186,4 +210,23 @@ fn a_result_that_cannot_be_written_is_a_failure() {
     let output = command.arg("models").stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8(output.stderr).unwrap().contains("could not be written"));
+    // Two files are two results; that neither can be written is said once.
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_gaitc"));
+    let specs = ["specs/rotational.toml", "specs/rimless_wheel.toml"];
+    let output =
+        command.current_dir(env!("CARGO_MANIFEST_DIR")).arg("check").args(specs).stdout(full).output().unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), stderr.matches("could not be written").count()), (Some(1), 1), "{stderr}");
+}
+
+#[test]
+fn the_table_of_measures_says_where_they_are_explained() {
+    let hint = "what the measures mean: gaitc show rimless_wheel";
+    let (code, out, _) = text(&["gait", "rimless_wheel"]);
+    assert_eq!((code, out.lines().filter(|line| *line == hint).count()), (0, 1), "{out}");
+    let (_, out, _) = text(&["optimize", "rimless_wheel"]);
+    assert_eq!(out.lines().filter(|line| *line == hint).count(), 1, "{out}");
+    let (_, value) = json(&["gait", "rimless_wheel"]);
+    assert!(!value.to_string().contains("gaitc show"), "{value:#}");
 }

@@ -160,6 +160,9 @@ fn a_project_is_made_where_nothing_or_an_empty_folder_is() {
     assert_eq!(below(&at("hopper")), FILES);
     succeeded(&gaitc_in(folder.path(), &["new", "a/b/../b/hopper"]));
     assert_eq!(below(&at("a/b/hopper")), FILES);
+    // A folder that the path goes into and out of again is not made.
+    succeeded(&gaitc_in(folder.path(), &["new", "no/such/../../there/hopper"]));
+    assert!(at("there/hopper/Cargo.toml").is_file() && !at("no").exists());
     fs::create_dir(at("empty")).unwrap();
     succeeded(&gaitc_in(&at("empty"), &["new", ".", "--name", "hopper"]));
     assert_eq!(below(&at("empty")), FILES);
@@ -187,6 +190,15 @@ fn folders_name_models() {
         let (out, _) = succeeded(&gaitc_in(folder.path(), &["new", made, "--json"]));
         assert_eq!(serde_json::from_str::<serde_json::Value>(&out).unwrap()["model"], name, "{made}");
     }
+}
+
+#[test]
+fn a_model_called_otherwise_than_its_folder_is_pointed_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, _) = succeeded(&gaitc_in(folder.path(), &["new", "My Hopper-2"]));
+    assert!(out.contains("the model in `My Hopper-2` is called `my_hopper_2`"), "{out}");
+    let (out, _) = succeeded(&gaitc_in(folder.path(), &["new", "hopper"]));
+    assert!(!out.contains("is called"), "{out}");
 }
 
 #[test]

@@ -206,3 +206,11 @@ pub(crate) struct SchemaArgs {
     #[arg(long)]
     pub(crate) part: bool,
 }
+
+/// What is wrong with the arguments, without the usage that clap prints below it.
+pub(crate) fn message(error: &clap::Error) -> String {
+    let text = error.render().to_string();
+    let end = ["\n\nUsage:", "\n\nFor more information"].iter().filter_map(|tail| text.find(tail)).min();
+    let message = text.get(..end.unwrap_or(text.len())).unwrap_or(&text);
+    message.strip_prefix("error: ").unwrap_or(message).trim_end().to_owned()
+}

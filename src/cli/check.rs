@@ -43,12 +43,17 @@ impl Found {
         if !path.is_dir() {
             return self.file(path, json);
         }
-        let mut files = Vec::new();
-        if let Err(error) = toml_files(path, &mut files) {
-            self.cannot_read(path, &error.to_string(), json);
-        }
-        if files.is_empty() {
-            self.cannot_read(path, "no file below this folder ends in .toml", json);
+        let (mut files, mut other) = (Vec::new(), 0);
+        let listed = toml_files(path, &mut files, &mut other);
+        match &listed {
+            Err(error) => self.cannot_read(path, &error.to_string(), json),
+            Ok(()) if files.is_empty() && other == 0 => {
+                self.cannot_read(path, "no file below this folder ends in .toml", json);
+            }
+            Ok(()) if files.is_empty() => {
+                self.cannot_read(path, "no TOML file below this folder has the key `spec`: there is no spec", json);
+            }
+            Ok(()) => {}
         }
         files.sort();
         files.iter().for_each(|file| self.file(file, json));
@@ -88,15 +93,25 @@ impl Found {
     }
 }
 
-/// Every file below a folder that ends in `.toml`; links to folders are not followed.
-fn toml_files(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
+/// Every spec and part below a folder, and the number of `other` files that end in `.toml`. Links to folders are not
+/// followed, and hidden folders and what cargo builds are left out.
+fn toml_files(folder: &Path, files: &mut Vec<PathBuf>, other: &mut usize) -> std::io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
-        let path = entry.path();
+        let (path, name) = (entry.path(), entry.file_name());
+        if name.as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
         if entry.file_type()?.is_dir() {
-            toml_files(&path, files)?;
+            if name != "target" {
+                toml_files(&path, files, other)?;
+            }
         } else if path.extension().is_some_and(|extension| extension == "toml") && !path.is_dir() {
-            files.push(path);
+            if front::may_be_spec(&path) {
+                files.push(path);
+            } else {
+                *other += 1;
+            }
         }
     }
     Ok(())

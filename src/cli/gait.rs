@@ -184,7 +184,7 @@ impl Report<'_> {
         rows.push(vec!["duration".to_owned(), format_quantity(gait.map.duration, "s")]);
         let measures = spec.measures.iter().zip(gait.map.measures.iter());
         rows.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
-        text += &format!("\n{}", output::table(&["gait", "value"], rows));
+        text += &format!("\n{}{}", output::table(&["gait", "value"], rows), output::measures_hint(spec));
         text += &format!("\n{}", Guards { spec, map: &gait.map }.table());
         text + &stability(gait) + &integration(gait.map.method)
     }

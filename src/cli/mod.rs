@@ -18,6 +18,7 @@ mod verify;
 
 use args::{Cli, Command};
 use clap::Parser;
+use serde_json::json;
 use std::process::ExitCode;
 
 /// How a command that could run ended.
@@ -45,6 +46,10 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(message) => {
             if message.use_stderr() {
+                // The flag cannot be asked for where the arguments could not be read.
+                if std::env::args_os().skip(1).take_while(|arg| arg != "--").any(|arg| arg == "--json") {
+                    output::json(&json!({ "status": "error", "message": args::message(&message) }));
+                }
                 let _ = message.print();
                 return ExitCode::from(1);
             }
@@ -59,7 +64,7 @@ pub fn main() -> ExitCode {
         Ok(Outcome::Without) => ExitCode::from(2),
         Err(InputError(message)) => {
             if cli.json && !cli.command.prints_its_own_errors() {
-                output::json(&serde_json::json!({ "status": "error", "message": message }));
+                output::json(&json!({ "status": "error", "message": message }));
             }
             output::error(&message);
             ExitCode::from(1)

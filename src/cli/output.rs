@@ -12,9 +12,9 @@ static LOST: AtomicBool = AtomicBool::new(false);
 pub(super) fn print(text: &str) {
     let mut out = anstream::stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(problem) if problem.kind() != ErrorKind::BrokenPipe => {
+        // Said once: what follows is lost for the same reason.
+        Err(problem) if problem.kind() != ErrorKind::BrokenPipe && !LOST.swap(true, Ordering::Relaxed) => {
             error(&format!("the result could not be written: {problem}"));
-            LOST.store(true, Ordering::Relaxed);
         }
         _ => {}
     }
@@ -36,6 +36,14 @@ pub(super) fn error(message: &str) {
 pub(super) fn json(value: &impl Serialize) {
     // The values printed here have string keys only, so that serialisation cannot fail.
     print(&format!("{}\n", serde_json::to_string_pretty(value).unwrap_or_else(|e| format!("\"{e}\""))));
+}
+
+/// Where the meaning of a model's measures stands; nothing where it has none.
+pub(super) fn measures_hint(model: &gaitc_compiler::ir::Model) -> String {
+    match model.measures.is_empty() {
+        true => String::new(),
+        false => format!("what the measures mean: gaitc show {}\n", model.name),
+    }
 }
 
 /// A table without borders: first column to the left, numbers to the right.

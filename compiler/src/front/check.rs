@@ -5,6 +5,7 @@ use super::{Parsed, SIZE_LIMIT, document, lower, parse_file, read, sorted};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::spec::Spec;
 use crate::source::{SourceMap, Span};
+use std::io::Read as _;
 use std::path::Path;
 
 /// What was found in a file.
@@ -16,7 +17,8 @@ pub struct Checked {
     pub part: bool,
 }
 
-/// Checks a spec, or a part: a file without `name`, transitions and section. Of a part is checked what does not depend on its user:
+/// Checks a spec, or a part: a file without `name` in a folder called `parts`, or one that has no transitions and no section
+/// either. Of a part is checked what does not depend on its user:
 /// syntax, tables and keys, units, names that clash, and the dimensions of what its own names determine.
 ///
 /// # Errors
@@ -32,14 +34,33 @@ pub fn check_file(path: &Path) -> std::io::Result<Checked> {
     Ok(Checked { parsed: parse_file(path)?, part: false })
 }
 
+/// Whether a file may be meant as a spec or a part, as far as can be seen without reading it as one: it has the key `spec`
+/// at its top, or, where its TOML is broken, a line that begins with it. What cannot be looked into may be anything.
+pub fn may_be_spec(path: &Path) -> bool {
+    let text = || {
+        let file = std::fs::File::open(path).ok()?;
+        let mut bytes = Vec::new();
+        file.take(SIZE_LIMIT).read_to_end(&mut bytes).ok()?;
+        Some(String::from_utf8_lossy(&bytes).into_owned())
+    };
+    // A device or a pipe may never end.
+    let Some(text) = path.is_file().then(text).flatten() else { return true };
+    let (document, broken) = document::top_level(&text);
+    let begins =
+        |line: &str| line.trim_start().strip_prefix("spec").is_some_and(|rest| rest.trim_start().starts_with('='));
+    document.iter().any(|key| key == "spec") || (broken && text.lines().any(begins))
+}
+
 /// Checks a text as a part; `None` where it is none.
 fn part(path: &Path, text: &str) -> Option<Parsed> {
     let mut sources = SourceMap::default();
     let file = sources.add(path, text);
     let mut diagnostics = Vec::new();
     let document = document::parse(file, text, &mut diagnostics);
-    // Where TOML is broken the tables of a spec may be lost; an empty file is no part.
-    let of_spec = ["name", "transitions", "section"].iter().any(|key| document.get(key).is_some());
+    // Where TOML is broken the tables of a spec may be lost; an empty file is no part. A file among the parts is one, and
+    // hears of tables that it cannot have.
+    let of_spec: &[&str] = if is_among_parts(path) { &["name"] } else { &["name", "transitions", "section"] };
+    let of_spec = of_spec.iter().any(|key| document.get(key).is_some());
     if of_spec || !diagnostics.is_empty() || document.entries.is_empty() {
         return None;
     }
@@ -54,6 +75,13 @@ fn part(path: &Path, text: &str) -> Option<Parsed> {
         diagnostics.extend(found.into_iter().filter(is_of_the_part));
     }
     Some(Parsed { sources, model: None, diagnostics: sorted(diagnostics), parts: loaded.names, spec: None })
+}
+
+/// Whether a folder of the path is called `parts`; of a file's bare name, the folder where it lies.
+fn is_among_parts(path: &Path) -> bool {
+    let called = |folder: &Path| folder.file_name().is_some_and(|name| name == "parts");
+    let lies_there = || std::path::absolute(path).is_ok_and(|path| path.parent().is_some_and(called));
+    path.ancestors().skip(1).any(called) || lies_there()
 }
 
 /// The folder from which the parts that a part uses are seen, that of the specs: the nearest one above the part that

@@ -89,6 +89,12 @@ pub(crate) fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>)
     Reader { file, text }.table(table.get_ref())
 }
 
+/// The keys at the top of a file, and whether its TOML is broken.
+pub(crate) fn top_level(text: &str) -> (Vec<String>, bool) {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    (table.get_ref().keys().map(|key| key.get_ref().to_string()).collect(), !errors.is_empty())
+}
+
 /// The most frequent slip: an expression without quotes.
 fn advice(text: &str, range: &Range<usize>) -> Option<&'static str> {
     let line_start = text.get(..range.start)?.rfind('\n').map_or(0, |i| i + 1);

@@ -7,6 +7,9 @@ use crate::dimension::Dimension;
 /// How many significant digits people get to see.
 const DIGITS: i32 = 4;
 
+/// Below this magnitude a number is what was left of 0 by underflow, and prints as that.
+const VANISHED: f64 = 1e-300;
+
 /// The SI value `value_si` in the unit `unit_text` with that unit behind it. The unit is one that the compiler has
 /// accepted; for any other text the value is printed in SI units and says so. An empty unit prints the bare number.
 pub fn format_quantity(value_si: f64, unit_text: &str) -> String {
@@ -40,7 +43,7 @@ pub fn format_number(value: f64) -> String {
     if !value.is_finite() {
         return format!("{value}");
     }
-    if value == 0.0 {
+    if value.abs() < VANISHED {
         return "0".to_owned();
     }
     let magnitude = value.abs().log10().floor();
@@ -86,6 +89,9 @@ mod tests {
             (0.123_456, "0.1235"),
             (-0.2, "-0.2"),
             (1e-9, "1e-9"),
+            (1e-299, "1e-299"),
+            (9e-301, "0"),
+            (-5e-324, "0"),
             (6.022e23, "6.022e23"),
             (f64::NAN, "NaN"),
             (f64::INFINITY, "inf"),

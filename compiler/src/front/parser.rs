@@ -29,7 +29,11 @@ pub(crate) fn parse_expression(text: &Text) -> Result<Expression, Box<Diagnostic
 pub(crate) fn parse_value(text: &Text) -> Result<(Expression, usize), Box<Diagnostic>> {
     let mut parser = Parser::new(text)?;
     let root = parser.expression(0)?;
-    let rest = parser.peek().range.start;
+    let rest = parser.peek();
+    if let Some(error) = parser.decimal_comma(&rest) {
+        return Err(error);
+    }
+    let rest = rest.range.start;
     Ok((Expression { root, names: parser.names, unit: None }, rest))
 }
 
@@ -280,8 +284,23 @@ impl<'a> Parser<'a> {
         if token.kind == TokenKind::End { Ok(()) } else { Err(self.unexpected(&token)) }
     }
 
+    /// What is to be said of a comma between the digits of a number.
+    fn decimal_comma(&self, token: &Token) -> Option<Box<Diagnostic>> {
+        let bytes = self.text.value.as_bytes();
+        let is_digit = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_digit);
+        let Range { start, end } = token.range;
+        if token.kind != TokenKind::Comma || !is_digit(start.checked_sub(1)) || !is_digit(Some(end)) {
+            return None;
+        }
+        let error = self.error(Code::Number, "a comma stands between the digits of a number", start..end);
+        Some(Box::new(error.help("the decimal mark is a point, as in `1.5`")))
+    }
+
     /// Why a token cannot stand where it stands.
     fn unexpected(&self, token: &Token) -> Box<Diagnostic> {
+        if let Some(error) = self.decimal_comma(token) {
+            return error;
+        }
         let text = self.slice(token.range.clone());
         let range = token.range.clone();
         Box::new(match token.kind {

@@ -26,7 +26,7 @@ pub(super) fn create(folder: &Path, shown: &str, texts: &[(String, String)]) -> 
 fn make(folder: &Path, texts: &[(String, String)]) -> Result<()> {
     let parent = folder.parent().unwrap_or(Path::new("/"));
     let made = make_parents(parent)?;
-    let temporary = Scratch::new(parent)?;
+    let temporary = Scratch::new(parent).inspect_err(|_| remove_empty(&made))?;
     let written = write(&temporary.0, texts).and_then(|()| fs::rename(&temporary.0, folder));
     if written.is_err() {
         drop(temporary);

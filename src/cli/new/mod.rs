@@ -37,7 +37,12 @@ pub(super) fn run(cli: &Cli, args: &NewArgs) -> Result<Outcome, InputError> {
         let paths: Vec<&str> = texts.iter().map(|(path, _)| path.as_str()).collect();
         output::json(&json!({ "folder": shown, "model": name, "files": paths, "crates": crates.map(Crates::json) }));
     } else {
-        output::print(&said(&args.folder, &name, crates.as_ref()));
+        let last = folder.file_name().unwrap_or_default().to_string_lossy();
+        let note = match args.name.is_none() && last != name {
+            true => format!("{}: the model in `{}` is called `{name}`\n", name::RULE, last.escape_debug()),
+            false => String::new(),
+        };
+        output::print(&(said(&args.folder, &name, crates.as_ref()) + &note));
     }
     Ok(Outcome::Done)
 }

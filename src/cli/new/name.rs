@@ -2,10 +2,11 @@
 
 use super::InputError;
 use gaitc_compiler::front::is_module_name;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// What a name looks like.
-const RULE: &str = "a model's name has lower-case letters, digits and `_`, begins with a letter and is no Rust keyword";
+pub(super) const RULE: &str =
+    "a model's name has lower-case letters, digits and `_`, begins with a letter and is no Rust keyword";
 
 /// Longest name: it is in paths of files, whose names have at most 255 bytes almost everywhere.
 const LONGEST: usize = 64;
@@ -50,11 +51,25 @@ pub(super) fn folder(given: &Path) -> Result<PathBuf, InputError> {
         let message = format!("cargo cannot build in `{}`", absolute.display().to_string().escape_debug());
         return Err(InputError(format!("{message}\n  help: choose a folder without `:` and control characters")));
     }
+    let absolute = without_detours(&absolute);
     // `..` is resolved where that is possible, so that the last part of the path is a name.
     Ok(match absolute.file_name() {
         Some(_) => absolute,
         None => absolute.canonicalize().unwrap_or(absolute),
     })
+}
+
+/// The path without steps into folders that are not there and out again: these would be made on the way, and stay empty.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut straight = PathBuf::new();
+    for component in path.components() {
+        // Through a folder that is there, or a link to one, `..` is the system's matter.
+        let detour = component == Component::ParentDir && straight.symlink_metadata().is_err();
+        if !(detour && straight.pop()) {
+            straight.push(component);
+        }
+    }
+    straight
 }
 
 /// A name that the user gave.

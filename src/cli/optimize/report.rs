@@ -90,7 +90,7 @@ impl Report<'_> {
         gait.push(vec!["spectral_radius".to_owned(), format_quantity(s.spectral_radius, "")]);
         let measures = self.spec.measures.iter().zip(&s.measures);
         gait.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
-        text += &format!("\n{}", output::table(&["gait", "value"], gait));
+        text += &format!("\n{}{}", output::table(&["gait", "value"], gait), output::measures_hint(self.spec));
         text + &format!(
             "\n{} iterations, KKT residual {:.0e}, {} of {} starts converged\n",
             s.iterations, s.kkt_residual, s.starts.converged, s.starts.run

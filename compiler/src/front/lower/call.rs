@@ -48,7 +48,22 @@ impl Lowering<'_> {
         }
         let plural = if expected == 1 { "" } else { "s" };
         let message = format!("`{}` takes {expected} argument{plural}, not {given}", call.name);
-        self.report(Diagnostic::error(Code::Arguments, message).at(span, ""), context);
+        let error = Diagnostic::error(Code::Arguments, message).at(span, "");
+        let largest = match call.name.as_str() {
+            "max" => Some("largest"),
+            "min" => Some("smallest"),
+            _ => None,
+        };
+        self.report(
+            match largest.filter(|_| given == 1 && context.place == Place::Measure) {
+                Some(which) => error.help(format!(
+                    "the {which} value during a map is `cycle_{0}(...)`; `{0}(a, b)` is one of two",
+                    call.name
+                )),
+                None => error,
+            },
+            context,
+        );
         None
     }
 

@@ -4,7 +4,7 @@ use super::scope::{Definition, Entity, Scope};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::front::names::{is_identifier, reserved};
-use crate::front::parser::{shortened, unit_diagnostic};
+use crate::front::parser::{parse_expression, shortened, unit_diagnostic};
 use crate::front::quantity::Quantities;
 use crate::front::spec::{Named, Parameter, Spec};
 use crate::front::text::Text;
@@ -16,7 +16,7 @@ use crate::source::{SourceMap, Span};
 pub(super) fn declare(spec: &Spec, model: &mut Model, sources: &SourceMap, diagnostics: &mut Vec<Diagnostic>) -> Scope {
     let mut scope = Scope::of_spec(spec.name.as_ref().map(|name| name.span.file));
     for (i, item) in spec.parameters.iter().enumerate() {
-        let parameter = parameter(item, &mut Quantities { sources, diagnostics });
+        let parameter = parameter(item, spec, &mut Quantities { sources, diagnostics });
         let dimension = parameter.as_ref().map(|parameter| parameter.dimension);
         let broken = || ir::Parameter { name: item.name.clone(), ..broken_parameter() };
         model.parameters.push(parameter.unwrap_or_else(broken));
@@ -132,11 +132,48 @@ fn broken_parameter() -> ir::Parameter {
     ir::Parameter { name, dimension: Dimension::NONE, value: 0.0, unit, range: None, doc }
 }
 
+/// Where the value of a parameter is an expression of other names, says once what to make of it; `said` is what was said
+/// of the value.
+fn point_to_let(item: &Named<Parameter>, text: &Text, sources: &SourceMap, spec: &Spec, said: &mut Vec<Diagnostic>) {
+    let mut first = true;
+    said.retain(|error| error.code != Code::NotConstant || std::mem::take(&mut first));
+    let Some(error) = said.iter_mut().find(|error| error.code == Code::NotConstant) else { return };
+    // In `50*cm` the name was meant as a unit.
+    let used = error.primary().map_or("", |span| sources.slice(span));
+    if parse_unit(used).is_ok() && !is_defined(spec, used) {
+        return;
+    }
+    let (name, written) = (shortened(&item.name), shortened(&text.value));
+    let help = if item.value.replaced.is_some() {
+        format!("`set` takes quantities only; an expression in the place of `{name}` stands in `fix`")
+    } else if parse_expression(text).is_ok() {
+        format!("what other names give is no parameter: move it to [let], as `{name} = \"{written}\"`")
+    } else {
+        "what other names give is no parameter: move it to [let], without the unit at the end".to_owned()
+    };
+    error.help = Some(help);
+}
+
+/// Whether an expression can use a name.
+fn is_defined(spec: &Spec, name: &str) -> bool {
+    let parameters = spec.parameters.iter().map(|item| &item.name);
+    let states = spec.states.iter().map(|item| &item.name);
+    let memory = spec.memory.iter().map(|item| &item.name);
+    let lets = spec.lets.iter().map(|item| &item.name);
+    parameters.chain(states).chain(memory).chain(lets).any(|other| other == name)
+}
+
 /// Value and range of a parameter; `None` when its dimension is not known.
-fn parameter(item: &Named<Parameter>, quantities: &mut Quantities<'_>) -> Option<ir::Parameter> {
+fn parameter(item: &Named<Parameter>, spec: &Spec, quantities: &mut Quantities<'_>) -> Option<ir::Parameter> {
     let Parameter { value, range, doc, replaced } = &item.value;
     let value_span = value.as_ref().map_or(item.span, |value| value.span);
-    let value = value.as_ref().and_then(|value| quantities.any(value));
+    let value = value.as_ref().and_then(|text| {
+        let mut said = Vec::new();
+        let value = Quantities { sources: quantities.sources, diagnostics: &mut said }.any(text);
+        point_to_let(item, text, quantities.sources, spec, &mut said);
+        quantities.diagnostics.append(&mut said);
+        value
+    });
     let bounds =
         range.as_ref().map(|range| [&range.lower, &range.upper].map(|bound| (quantities.any(bound), bound.span)));
     let default = replaced.as_ref().map(|text| quantities.any(text));

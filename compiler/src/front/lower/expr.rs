@@ -204,7 +204,9 @@ impl Lowering<'_> {
             ),
             Place::Flow if value.uses.any(Uses::RATE) => (
                 format!("`{name}` needs a rate, which flow and mass matrix are there to determine"),
-                "move the factor of the rate to `[modes.NAME.mass]`; the flow is what remains".to_owned(),
+                "move the factor of the rate to `[modes.NAME.mass]`, so that the flow is what remains; where states \
+                 give the rate themselves, write them, as the speed `v` for `dot(x)`"
+                    .to_owned(),
             ),
             Place::Event(_) | Place::When(_) if value.uses.any(Uses::RATE) => (
                 format!("`{name}` needs a rate, which transitions do not know in a mode with a mass matrix"),

@@ -4,6 +4,7 @@
 
 use super::clock::depends_on_tau;
 use super::sample;
+use super::section::advice_off_guard;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::format_si;
 use crate::front::spec::{Anchor, Equation, Spec};
@@ -38,8 +39,7 @@ pub(super) fn check(spec: &Spec, model: &Model, diagnostics: &mut Vec<Diagnostic
     let error =
         Diagnostic::error(Code::OffSection, message).at(guard_span(spec, section).unwrap_or(written.span), label);
     let error = written.embed.first().map_or(error.clone(), |embed| error.see(embed.span, "the embedding"));
-    let help = "give each state by coordinates and parameters such that the guard vanishes, or make another state a coordinate";
-    diagnostics.push(error.help(help));
+    diagnostics.push(error.help(advice_off_guard(model, section, transition.guard)));
 }
 
 fn describe(model: &Model, state: usize, value: Option<&f64>) -> Option<String> {

@@ -29,7 +29,10 @@ impl Lowering<'_> {
 
     fn problem(&mut self, item: &Named<Problem>) -> Option<ir::Problem> {
         let Problem { doc, default, objective, vary, subject_to } = &item.value;
-        let lowered = objective.as_ref().and_then(|(_, equation)| self.objective(equation));
+        let lowered = objective.as_ref().and_then(|(sense, equation)| {
+            let lowered = self.objective(equation)?;
+            (*sense == ir::Sense::Minimize || self.can_grow(equation, lowered.0)).then_some(lowered)
+        });
         let vary: Vec<Option<ir::Vary>> = vary.iter().map(|item| self.vary(item)).collect();
         let constraints: Vec<Option<ir::Constraint>> = subject_to.iter().map(|item| self.constraint(item)).collect();
         let ((sense, equation), (objective, objective_dimension)) = objective.as_ref().zip(lowered)?;
@@ -118,6 +121,17 @@ impl Lowering<'_> {
             dimension: dimension.unwrap_or(Dimension::NONE),
             unit: equation.expression.as_ref().and_then(|expression| expression.unit.as_deref().map(str::to_owned)),
         })
+    }
+
+    /// Whether an objective can be maximised; reports the one that cannot.
+    fn can_grow(&mut self, equation: &Equation, objective: NodeId) -> bool {
+        if self.model.graph.node(objective) != Node::Symbol(Symbol::SpectralRadius) {
+            return true;
+        }
+        let error = Diagnostic::error(Code::ProblemForm, "`spectral_radius` can only be minimised");
+        let help = "write `minimize = \"spectral_radius\"`";
+        self.diagnostics.push(error.at(self.root_span(equation), "").help(help));
+        false
     }
 
     fn is_radius(&self, value: Value) -> bool {

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::front::quantity::Quantities;
 use crate::front::spec::{self, Equation, Named, Spec};
 use crate::front::text::Text;
-use crate::ir::{self, NodeId, Symbol};
+use crate::ir::{self, Model, NodeId, Symbol};
 use crate::source::Span;
 
 impl Lowering<'_> {
@@ -38,6 +38,11 @@ impl Lowering<'_> {
             }
             _ => ("transition", spec.transitions.iter().map(|item| item.name.as_str()).collect(), 0),
         };
+        let known = names.contains(&name.value.as_str());
+        if let Some(error) = other_anchor(spec, anchor).filter(|_| !known) {
+            self.diagnostics.push(error);
+            return None;
+        }
         self.reference(kind, &name.value, name.span, &names).map(|i| first + i)
     }
 
@@ -76,7 +81,7 @@ impl Lowering<'_> {
         for equation in &section.embed {
             let state = self.state_of(equation, "embedding");
             let node = self.section_equation(equation, state, "embedding");
-            if let Some(node) = node {
+            if let Some(node) = node.filter(|_| self.whole_section) {
                 self.only_coordinates(equation, node, coordinates);
             }
             let Some(state) = state else { continue };
@@ -177,4 +182,39 @@ impl Lowering<'_> {
         }
         symmetry
     }
+}
+
+/// What is to be said of a section after a surface, or on a transition.
+fn other_anchor(spec: &Spec, anchor: &spec::Anchor) -> Option<Diagnostic> {
+    let (name, on_surface) = (anchor.name(), matches!(anchor, spec::Anchor::At(_)));
+    let (is, help) = if on_surface {
+        spec.transitions.iter().find(|item| item.name == name.value)?;
+        ("a transition, not a surface", format!("write `after = \"{0}\"` or `before = \"{0}\"`", name.value))
+    } else {
+        spec.surfaces.iter().find(|item| item.name == name.value)?;
+        ("a surface, not a transition", format!("write `at = \"{}\"`", name.value))
+    };
+    let error = Diagnostic::error(Code::UnknownReference, format!("`{}` is {is}", name.value));
+    Some(error.at(name.span, "").help(help))
+}
+
+/// What to do where a guard is not zero on the section that stands on it.
+pub(super) fn advice_off_guard(model: &Model, section: &ir::Section, guard: NodeId) -> String {
+    let has = model.transitions.get(section.transition).and_then(|transition| model.modes.get(transition.from));
+    let has_state = has.map_or(&[][..], |mode| &mode.has_state);
+    let all = (0..has_state.len()).all(|state| !has_state[state] || section.coordinates.contains(&state));
+    let fixes = |state: &&usize| model.graph.depends(&[guard], |symbol| symbol == Symbol::State(**state));
+    let fixed: Vec<String> = (section.coordinates.iter().filter(fixes))
+        .filter_map(|&state| Some(format!("`{}`", model.states.get(state)?.name)))
+        .collect();
+    if !all || fixed.is_empty() {
+        return "give each state by coordinates and parameters such that the guard vanishes, or make another state a \
+                coordinate"
+            .to_owned();
+    }
+    format!(
+        "all states are coordinates, and the guard fixes one of them: take {} out of the coordinates, and let \
+         [section.embed] say what it is where the guard is zero",
+        fixed.join(" or ")
+    )
 }

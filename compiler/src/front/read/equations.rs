@@ -1,11 +1,11 @@
 //! The tables `[functions]`, `[modes]`, `[transitions]`, `[surfaces]` and `[section]`.
 
 use super::fields::{
-    Fields, Sink, equation, equation_or_broken, equations, expression, scalar, string, strings, table,
+    Fields, Sink, broken_equation, equation, equation_or_broken, equations, expression, scalar, string, strings, table,
 };
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::front::document::{Entry, ValueKind};
+use crate::front::document::{Entry, Value, ValueKind};
 use crate::front::keys;
 use crate::front::names::suggest;
 use crate::front::spec::{Anchor, Equation, Function, MassRow, Mode, Named, Section, Surface, Transition};
@@ -39,11 +39,32 @@ pub(super) fn modes(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Mode>> 
         let flow = fields.require("flow", &format!("[modes.{}.flow]", entry.key), sink);
         let flow = flow.and_then(|entry| table(entry, sink)).map(|table| equations(&table.entries, sink));
         let doc = fields.doc("doc", sink);
-        let mass = fields.table("mass", sink).iter().map(|entry| mass_row(entry, sink)).collect();
+        let mass = mass(&fields, flow.as_deref().unwrap_or(&[]), sink);
         let value = Mode { flow: flow.unwrap_or_default(), mass, doc };
         modes.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
     modes
+}
+
+/// The rows of `[modes.NAME.mass]`.
+fn mass(fields: &Fields<'_>, flow: &[Named<Equation>], sink: &mut Sink<'_>) -> Vec<Named<MassRow>> {
+    match fields.get("mass").map(|entry| &entry.value) {
+        None => Vec::new(),
+        Some(Value { kind: ValueKind::Table(table), .. }) => {
+            table.entries.iter().map(|entry| mass_row(entry, sink)).collect()
+        }
+        Some(value) => {
+            let example = "mass = { x = \"m\", y = { x = \"m*l\", y = \"m*l^2\" } }";
+            sink.wrong_type(value, "mass", "a table", example);
+            // Any row may have been meant: none is then taken for the identity's.
+            let broken = |row: &Named<Equation>| Named {
+                name: row.name.clone(),
+                span: row.span,
+                value: MassRow::Factor(broken_equation(value.span)),
+            };
+            flow.iter().map(broken).collect()
+        }
+    }
 }
 
 /// `x = "m"`, or `x = { x = "m", y = "m*l*cos(y)" }`.

@@ -53,14 +53,13 @@ impl<'t> Fields<'t> {
     pub(super) fn new(table: &'t Table, place: Span, what: String, keys: &[&str], sink: &mut Sink<'_>) -> Self {
         let mut misspelt = Vec::new();
         for entry in table.entries.iter().filter(|entry| !keys.contains(&entry.key.as_str())) {
-            let message = format!("unknown key `{}` of {what}", shortened(&entry.key));
-            let help = match suggest(&entry.key, keys.iter().copied()) {
-                Some(near) => {
-                    misspelt.push((entry, near.to_owned()));
-                    format!("did you mean `{near}`?")
-                }
+            let near = suggest(&entry.key, keys.iter().copied());
+            misspelt.extend(near.map(|near| (entry, near.to_owned())));
+            let help = match near {
+                Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the keys are {}", list(keys)),
             };
+            let message = format!("unknown key `{}` of {what}", shortened(&entry.key));
             sink.push(Diagnostic::error(Code::UnknownKey, message).at(entry.key_span, "").help(help));
         }
         Self { table, misspelt, place, what }
@@ -145,8 +144,12 @@ pub(super) fn equation(entry: &Entry, sink: &mut Sink<'_>) -> Option<Equation> {
 
 /// The same; what has the wrong type is there all the same: it must not be reported as missing.
 pub(super) fn equation_or_broken(entry: &Entry, sink: &mut Sink<'_>) -> Equation {
-    let broken = || Equation { text: Text::bare("", entry.value.span), expression: None };
-    equation(entry, sink).unwrap_or_else(broken)
+    equation(entry, sink).unwrap_or_else(|| broken_equation(entry.value.span))
+}
+
+/// What stands for an expression that cannot be read.
+pub(super) fn broken_equation(span: Span) -> Equation {
+    Equation { text: Text::bare("", span), expression: None }
 }
 
 /// The expression of a text.

@@ -2,13 +2,14 @@
 
 mod equations;
 mod fields;
+mod misplaced;
 pub(crate) mod quantities;
 mod results;
 mod uses;
 
 use super::document::{Entry, Table, ValueKind};
 use super::keys;
-use super::names::is_module_name;
+use super::names::{is_module_name, suggest};
 use super::spec::Spec;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -21,6 +22,8 @@ pub(crate) const VERSION: i64 = 1;
 /// Reads a whole document; `start` is the beginning of the file. Nothing is reported as missing unless `complete`.
 pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
     let sink = &mut Sink { diagnostics, complete };
+    let moved = misplaced::use_at_the_top(document, sink);
+    let document = moved.as_ref().unwrap_or(document);
     let fields = Fields::new(document, start, "the spec".to_owned(), keys::SPEC, sink);
     version(&fields, sink);
     let name = fields.string("name", "name = \"my_model\"", sink);
@@ -44,15 +47,34 @@ pub(crate) fn read(document: &Table, start: Span, complete: bool, diagnostics: &
 /// Reads a document that is a part.
 pub(crate) fn read_part(document: &Table, start: Span, complete: bool, diagnostics: &mut Vec<Diagnostic>) -> Spec {
     let sink = &mut Sink { diagnostics, complete };
-    let fields = Fields::new(document, start, "the part".to_owned(), keys::SPEC, sink);
+    let moved = misplaced::use_at_the_top(document, sink);
+    let document = of_parts(moved.as_ref().unwrap_or(document), sink);
+    let of_specs = |key: &&str| keys::OF_SPECS_ONLY.iter().any(|(of_specs, _)| of_specs == key);
+    let keys: Vec<&str> = keys::SPEC.iter().copied().filter(|key| !of_specs(key)).collect();
+    let fields = Fields::new(&document, start, "the part".to_owned(), &keys, sink);
     version(&fields, sink);
-    for (key, why) in keys::OF_SPECS_ONLY {
-        if let Some(entry) = fields.get(key) {
-            let message = format!("a part cannot have `{key}`");
-            sink.push(Diagnostic::error(Code::PartTable, message).at(entry.key_span, "").help(*why));
-        }
-    }
     shared(&fields, sink)
+}
+
+/// A part without the keys that only a spec can have, which are reported, also where they are misspelt.
+fn of_parts(document: &Table, sink: &mut Sink<'_>) -> Table {
+    let mut kept = Table::default();
+    for entry in &document.entries {
+        let known = keys::SPEC.contains(&entry.key.as_str());
+        let meant = if known { Some(entry.key.as_str()) } else { suggest(&entry.key, keys::SPEC.iter().copied()) };
+        let Some((key, why)) = keys::OF_SPECS_ONLY.iter().find(|(key, _)| meant == Some(*key)) else {
+            kept.entries.push(entry.clone());
+            continue;
+        };
+        let message = match known {
+            true => format!("a part cannot have `{key}`"),
+            false => {
+                format!("a part cannot have `{}`, nor `{key}`, if that is meant", super::parser::shortened(&entry.key))
+            }
+        };
+        sink.push(Diagnostic::error(Code::PartTable, message).at(entry.key_span, "").help(*why));
+    }
+    kept
 }
 
 /// What specs and parts have in common.

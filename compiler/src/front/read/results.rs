@@ -5,6 +5,7 @@ use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
 use crate::front::keys;
+use crate::front::parser::shortened;
 use crate::front::spec::{Equation, Interval, Measure, Named, Problem};
 use crate::ir::Sense;
 use crate::source::Span;
@@ -13,6 +14,14 @@ use crate::source::Span;
 pub(super) fn measures(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Measure>> {
     let mut measures = Vec::new();
     for entry in entries {
+        if !matches!(entry.value.kind, ValueKind::Table(_)) {
+            let example = format!("{} = {{ expr = \"...\", unit = \"...\" }}", shortened(&entry.key));
+            sink.wrong_type(&entry.value, &entry.key, "a table", &example);
+            // It is there all the same: what uses it is not wrong.
+            let value = Measure { expr: None, unit: None, doc: String::new() };
+            measures.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+            continue;
+        }
         let Some(fields) = fields_of(entry, "measure", keys::MEASURE, sink) else {
             continue;
         };
