@@ -102,15 +102,17 @@ fn largest_term(model: &Model, root: NodeId, at: &Environment<'_>) -> f64 {
 }
 
 /// Whether the reset of the section's transition, and the symmetry, keep every state that the guard depends on: then it is
-/// zero after the transition as well.
+/// zero after the transition as well. Where the guard is one of coordinates alone no embedding contradicts it: there are more
+/// coordinates than needed, and each map comes back to the section.
 fn keeps_guard(model: &Model, section: &Section) -> bool {
     let Some(transition) = model.transitions.get(section.transition) else { return false };
     let is_state = |root: Option<&NodeId>, i: usize| {
         root.is_some_and(|&root| model.graph.node(root) == Node::Symbol(Symbol::State(i)))
     };
-    let mut keeps = true;
+    let (mut keeps, mut embedded) = (true, false);
     model.graph.visit(&[transition.guard], |_, node| match node {
         Node::Symbol(Symbol::State(i)) => {
+            embedded |= !section.coordinates.contains(&i);
             keeps &= is_state(transition.reset.get(i), i);
             keeps &= section.symmetry.as_ref().is_none_or(|symmetry| is_state(symmetry.get(i), i));
         }
@@ -118,7 +120,7 @@ fn keeps_guard(model: &Model, section: &Section) -> bool {
         Node::Symbol(Symbol::Memory(_) | Symbol::Rate(_)) => keeps = false,
         _ => {}
     });
-    keeps
+    keeps && embedded
 }
 
 /// Compares a state's embedding with its reset, where that depends on parameters alone.
