@@ -11,7 +11,8 @@ pub struct Ball;
 /// The time to an impact, and the speed relative to the floor there, from height h with relative speed w.
 pub fn fall<S: Scalar>(h: S, w: S, g: S) -> (S, S) {
     let v = (w * w + c::<S>(2.0) * g * h).sqrt();
-    ((w + v) / g, -v)
+    // Without cancellation.
+    (if number(w) < 0.0 { c::<S>(2.0) * h / (v - w) } else { (w + v) / g }, -v)
 }
 
 impl System for Ball {
@@ -83,9 +84,12 @@ fn falling_guards() {
 
 #[test]
 fn long_and_short_flights() {
+    let ball = Row::new("a million seconds", Of::Ball, [0.0, 1.0, 0.0], [2e-6, 0.5, 0.0, 0.0, 0.0, 1.2e6]);
+    let drop = Row::new("drop of a million seconds", Of::Drop, [0.0, 1.0, 0.0], [2e-6, 0.5, 0.0, 0.0, 0.0, 0.0]);
     check(&[
-        Row::new("a million seconds", Of::Ball, [0.0, 1.0, 0.0], [2e-6, 0.5, 0.0, 0.0, 0.0, 1.2e6]).limit(1e7),
-        Row::new("drop of a million seconds", Of::Drop, [0.0, 4.905e6, 0.0], [9.81, 0.5, 0.0, 0.0, 0.0, 0.0]).limit(1e7),
+        // It rises 2.5e5 m: so much larger is the rounding of heights and of their derivatives, of which some are 0.
+        ball.limit(1e7).within(2.5e5 * 1e-15, 1e6 * 1e-15, 1e-9),
+        drop.limit(1e7).within(2.5e5 * 1e-15, 1e6 * 1e-15, 1e-9),
         Row::new("a nanosecond", Of::Ball, [0.0, 5e-9, 0.0], [10.0, 0.5, 0.0, 0.0, 0.0, 1.2e-9]),
         Row::new("drop of a nanosecond", Of::Drop, [0.0, 5e-9, 0.0], [10.0, 0.5, 0.0, 0.0, 0.0, 0.0]),
         Row::new("fast drop of a nanosecond", Of::Drop, [1e-3, -1e6, 0.0], [10.0, 0.5, 0.0, 0.0, 0.0, 0.0]),

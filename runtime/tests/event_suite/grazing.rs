@@ -90,7 +90,9 @@ fn the_derivative_follows_the_square_root() {
     let at = |d: f64| map(&parabola(d), Method::Explicit).jacobian[(1, 0)];
     for decade in 1..=4 {
         let d = 0.1_f64.powi(decade);
-        assert!((at(0.01 * d) / at(d) - 10.0).abs() < 1e-9, "{d}");
+        // u/(2 d) of itself, as above.
+        let known = 1e-11_f64.max(4.0 * f64::EPSILON / (0.01 * d));
+        assert!((at(0.01 * d) / at(d) - 10.0).abs() < 10.0 * known, "{d}");
     }
 }
 

@@ -114,7 +114,7 @@ fn ends_of_the_domain() {
 
 #[test]
 fn the_time_limit() {
-    let ball = |name: &str| Row::new(name, Of::Ball, [1.0, 0.0, 0.0], [2.0, 0.5, 0.0, 0.0, 0.0, 2.0]);
+    let ball = |name: &str| Row::new(name, Of::Ball, [1.0, 0.0, 0.0], [2.0, 0.7, 0.0, 0.0, 0.0, 2.0]);
     let drop = |name: &str| Row::new(name, Of::Drop, [1.0, 0.0, 0.0], [2.0, 0.5, 0.0, 0.0, 0.0, 0.0]);
     let none = StopReason::NoEvent;
     check(&[

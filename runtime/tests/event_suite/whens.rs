@@ -89,7 +89,7 @@ fn conditions() {
     check(&[
         row("holds", 0.0, 1.0, 0.4),
         row("does not hold", 2.0, 1.0, 0.4),
-        row("on its edge", 1.5, 1.0, 0.4),
+        row("on its edge", 0.8, 0.0, 0.4),
         row("begins to hold just before", 1.5 - 1e-9, 1.0, 0.4),
         row("begins to hold just after", 1.5 + 1e-9, 1.0, 0.4),
         row("ceases to hold just before", 1.5 - 1e-9, -1.0, 0.4),
