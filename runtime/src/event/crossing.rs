@@ -40,15 +40,16 @@ fn changes_sign(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
     !resting || (s * start.rate * h > start.rounding && s * end.rate * h < -end.rounding)
 }
 
-/// Towards the surface at the start and away from it at the end, with tangents that meet near it or beyond it.
+/// Towards the surface at the start and away from it, or at rest, at the end, with tangents that meet near it or beyond it,
+/// or with an end that touches it.
 fn turns(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
     let s = side.sign();
     let (v0, r0, v1, r1) = (s * start.value, s * start.rate, s * end.value, s * end.rate);
-    if !(r0 < 0.0 && r1 > 0.0) {
+    if !(r0 < 0.0 && r1 >= 0.0) {
         return false;
     }
     let meet = (v1 - v0 - r1 * h) / (r0 - r1);
-    v0 + r0 * meet < NEAR * v0.min(v1)
+    v0 + r0 * meet < NEAR * v0.min(v1) || v0.min(v1) <= TOUCH * v0.max(v1)
 }
 
 /// Up and down again, or down and up, with the same sense at both ends, near the surface.
@@ -100,7 +101,7 @@ fn turning_places(h: f64, start: &Reading, end: &Reading) -> Option<(f64, f64)> 
 
 /// The places where the function turns, on the dense output.
 fn turning(start: &Reading, end: &Reading, h: f64, rate: &impl Fn(f64) -> f64) -> Vec<f64> {
-    if start.rate * end.rate < 0.0 {
+    if start.rate * end.rate < 0.0 || (end.rate == 0.0 && start.rate != 0.0) {
         return vec![root(rate, 0.0, start.rate, 1.0, end.rate)];
     }
     let Some((first, second)) = turning_places(h, start, end) else {
@@ -127,12 +128,13 @@ pub(crate) fn passages(
     rate: &impl Fn(f64) -> f64,
 ) -> Vec<Passage> {
     let noise = start.rounding.max(end.rounding);
-    let turns = turning(start, end, h, rate).into_iter().filter(|u| *u > 0.0 && *u < 1.0).map(|u| (u, value(u)));
+    let turns = turning(start, end, h, rate).into_iter().filter(|u| *u > 0.0).map(|u| (u, value(u)));
     let mut places: Vec<(f64, f64)> = turns.chain(dip).collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let on_surface = side.sign() * start.value <= start.rounding;
     let mut found = Vec::new();
     let (mut now, mut low) = (side, Low { at: 0.0, value: start.value, on_surface });
+    let mut largest = largest;
     for (at, v) in places {
         let beyond = now.sign() * v;
         if beyond < -noise {
@@ -145,6 +147,7 @@ pub(crate) fn passages(
         } else if beyond > noise {
             low = Low { at, value: v, on_surface: false };
         }
+        largest = largest.max(v.abs());
     }
     let changes = if now == side { changes_sign(side, h, start, end) } else { now.sign() * end.value <= 0.0 };
     if changes && now.leaves(direction) {
@@ -212,9 +215,9 @@ mod tests {
         assert!(near(&crossings(Direction::Rising, f, rate), &[0.2, 0.8]));
         assert!(near(&crossings(Direction::Falling, f, rate), &[0.3]));
         // Both ends on one side: up, down through zero, and up again.
-        let lifted = |u: f64| f(u) + 0.03;
-        let found = crossings(Direction::Either, lifted, rate);
-        assert_eq!(found.len(), 2);
-        assert!(found.iter().all(|u| lifted(*u).abs() < 1e-14));
+        let f = |u: f64| (u + 0.1) * (u - 0.6) * (u - 0.8);
+        let rate = |u: f64| (u - 0.6) * (u - 0.8) + (u + 0.1) * (u - 0.8) + (u + 0.1) * (u - 0.6);
+        assert!(near(&crossings(Direction::Either, f, rate), &[0.6, 0.8]));
+        assert!(near(&crossings(Direction::Rising, f, rate), &[0.8]));
     }
 }

@@ -124,9 +124,8 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
             let at = X::point::<M, N, P, Q>(frame, step, &dense, u);
             read::<M, N, P, Q>(w.surface, &at.x, &at.k, &frame.env(step.tau + u * step.h))
         };
-        let largest = w.largest.max(w.end.value.abs());
         let ends = (&w.start, &w.end, step.h, w.dip);
-        for passage in passages(w.side, w.direction, ends, largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
+        for passage in passages(w.side, w.direction, ends, w.largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
             let (h, last) = match passage {
                 Passage::Crossing { low, high, at, from } => {
                     let bracket = (low * step.h, high * step.h);
@@ -144,7 +143,7 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
             }
             let tau = step.tau + h;
             let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
-            found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau) });
+            found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau).max(0.0) });
             break;
         }
     }

@@ -37,7 +37,7 @@ pub struct Row {
 
 impl Row {
     /// Completes without warnings as its closed form says: times to 1e-12 of themselves, states to 1e-12, derivatives to 1e-11 of
-    /// max(1, themselves), and by the implicit method all of it to 1e-9.
+    /// max(1, the largest of their column), and by the implicit method all of it to 1e-9.
     pub fn new(name: &str, of: Of, start: [f64; 3], p: [f64; 6]) -> Self {
         let accuracy = Accuracy { relative: 1e-13, absolute: 1e-14, method: Method::Explicit, ..Accuracy::default() };
         let (warned, name) = (Vec::new(), name.to_owned());
@@ -136,7 +136,12 @@ fn completed(row: &Row, r: &MapResult, (times, derivatives): (f64, f64), say: &m
     }
     for (event, (_, time)) in r.events.iter().zip(&exact.events) {
         if !near(event.time, *time, *time, times) {
-            say(format!("event {} at {}, expected {time}, off by {:e}", event.transition, event.time, event.time - time));
+            say(format!(
+                "event {} at {}, expected {time}, off by {:e}",
+                event.transition,
+                event.time,
+                event.time - time
+            ));
         }
     }
     for i in 0..3 {
@@ -153,8 +158,10 @@ fn completed(row: &Row, r: &MapResult, (times, derivatives): (f64, f64), say: &m
         let d = derivative(row, column);
         let duration = d.events.last().map_or(f64::NAN, |e| e.1);
         let rows = (0..3).map(|i| (r.jacobian[(i, column)], d.end[i]));
+        // Rounding is that of the largest.
+        let scale = d.end.iter().fold(duration.abs().max(1.0), |largest, v| largest.max(v.abs()));
         for (i, (got, expected)) in rows.chain([(r.duration_gradient[column], duration)]).enumerate() {
-            if !near(got, expected, expected.abs().max(1.0), derivatives) {
+            if !near(got, expected, scale, derivatives) {
                 say(format!("derivative ({i}, {column}) is {got}, expected {expected}, off by {:e}", got - expected));
             }
         }
@@ -167,10 +174,7 @@ fn derivative(row: &Row, column: usize) -> Exact<f64> {
     let x = core::array::from_fn(|i| seed(i, row.start[i]));
     let p = core::array::from_fn(|i| seed(i + 3, row.p[i]));
     let d = exact(row.of, &x, &p).expect("has a closed form");
-    Exact {
-        events: d.events.iter().map(|(i, t)| (*i, t.derivative)).collect(),
-        end: d.end.map(|v| v.derivative),
-    }
+    Exact { events: d.events.iter().map(|(i, t)| (*i, t.derivative)).collect(), end: d.end.map(|v| v.derivative) }
 }
 
 /// A warning without its numbers.

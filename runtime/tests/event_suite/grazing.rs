@@ -99,12 +99,7 @@ fn the_derivative_follows_the_square_root() {
 #[test]
 fn touches_and_misses() {
     let warned = &[Warned::Grazing(FALL)];
-    check(&[
-        parabola(0.0).warns(warned),
-        parabola(-1e-9).warns(warned),
-        parabola(-1e-7),
-        parabola(-1e-3),
-    ]);
+    check(&[parabola(0.0).warns(warned), parabola(-1e-9).warns(warned), parabola(-1e-7), parabola(-1e-3)]);
 }
 
 /// A zero of the third order is known to the cube root of rounding; there is no derivative, and the warning says so.

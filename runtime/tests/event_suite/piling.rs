@@ -82,8 +82,11 @@ fn events_that_pile_up() {
         ball("ball with e = 0.1", 1.0, -2.0, 0.1),
         Row::new("closing walls", Of::Walls, [0.0, 0.3, 1.0], [0.1, 0.5, 0.0, 0.0, 0.0, 50.0]).stops(zeno, 10.0, 1e-9),
         Row::new("sliding", Of::Sliding, [1.0, 0.0, 0.0], [0.0, 1.0, 1.0, 0.0, 0.0, 5.0]).stops(zeno, 1.0, 1e-9),
-        Row::new("sliding on a slope", Of::Sliding, [1.0, 0.5, 0.0], [0.5, 2.0, 1.5, 0.4, 0.0, 5.0])
-            .stops(zeno, 0.75 / 2.2, 1e-9),
+        Row::new("sliding on a slope", Of::Sliding, [1.0, 0.5, 0.0], [0.5, 2.0, 1.5, 0.4, 0.0, 5.0]).stops(
+            zeno,
+            0.75 / 2.2,
+            1e-9,
+        ),
         Row::new("narrow relay", Of::Relay, [1.0, 0.0, 0.0], [1e-12, 0.0, 0.0, 0.0, 0.0, 5.0]).stops(zeno, 1.0, 1e-9),
     ]);
 }

@@ -64,7 +64,7 @@ fn surface_without_effect() {
     let rotation = Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
     let row = Row::new("surface", Of::Harmonic, [0.6, 0.8, 0.1], [0.3, 0.0, EITHER as f64, 0.0, 0.0, 12.0]);
     let [explicit, _] = map(&row);
-    assert_eq!(explicit.events.len(), 5);
+    assert_eq!(explicit.events.len(), 4);
     same(&row, &rotation);
 }
 

@@ -116,9 +116,8 @@ fn guards_that_are_zero_at_the_start() {
 
 #[test]
 fn resets_that_land_on_a_guard() {
-    let row = |name: &str, g: f64, w: f64, k: f64| {
-        Row::new(name, Of::Landing, [1.5, 0.3, 0.0], [g, w, k, 0.0, 0.0, 1.4])
-    };
+    let row =
+        |name: &str, g: f64, w: f64, k: f64| Row::new(name, Of::Landing, [1.5, 0.3, 0.0], [g, w, k, 0.0, 0.0, 1.4]);
     let at = (0.3 + (0.09_f64 + 2.0 * 9.81 * 0.5).sqrt()) / 9.81;
     check(&[
         row("lands moving up", 9.81, 2.0, 0.5),

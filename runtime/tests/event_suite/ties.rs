@@ -64,7 +64,9 @@ fn ties() {
 fn near_ties() {
     let mut rows = Vec::new();
     for gap in [1e-6, 1e-9, 1e-12, 1e-13] {
-        for (order, [a, b, c]) in [("in order", [0.0, 1.0, 2.0]), ("reversed", [2.0, 1.0, 0.0]), ("mixed", [1.0, 2.0, 0.0])] {
+        for (order, [a, b, c]) in
+            [("in order", [0.0, 1.0, 2.0]), ("reversed", [2.0, 1.0, 0.0]), ("mixed", [1.0, 2.0, 0.0])]
+        {
             let p = [1.0 + a * gap, 1.0 + b * gap, 1.0 + c * gap, 0.0, 0.0, 2.0];
             rows.push(Row::new(&format!("{gap} apart, {order}"), Of::Runner, [0.0, 0.3, 0.1], p));
         }
