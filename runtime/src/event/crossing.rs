@@ -55,7 +55,7 @@ fn turns(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
 /// Up and down again, or down and up, with the same sense at both ends, near the surface.
 fn turns_twice(side: Side, h: f64, start: &Reading, end: &Reading) -> bool {
     let s = side.sign();
-    if s * start.rate * end.rate * s <= 0.0 {
+    if side == Side::Unknown || start.rate * end.rate <= 0.0 {
         return false;
     }
     let Some((first, second)) = turning_places(h, start, end) else {
@@ -90,7 +90,7 @@ fn turning_places(h: f64, start: &Reading, end: &Reading) -> Option<(f64, f64)> 
     let Cubic { d, b, c, .. } = Cubic::new(h, start, end);
     // d + 2 b u + 3 c u^2 = 0
     let under = b * b - 3.0 * c * d;
-    if !(under > 0.0) {
+    if under.is_nan() || under <= 0.0 {
         return None;
     }
     let far = -(b + under.sqrt().copysign(b));

@@ -145,6 +145,7 @@ systems!(
     switches::Pair,
     switches::Coincident,
     switches::Nested,
+    switches::Timed,
     piling::Sliding,
     piling::Relay,
     piling::Walls,

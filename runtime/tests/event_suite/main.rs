@@ -18,8 +18,8 @@
 //! | mode changes, several transitions in a map, memory, parameters in resets | `resets` |
 //! | guards: circle (from inside, from outside, twice in a step), product, exponential; a nonlinear flow | `curved` |
 //! | moving surfaces | `flights` (floor), `piling` (wall) |
-//! | jumps of the flow, several at once, one under another's selector, kinks, switch together with guard | `switches` |
-//! | sliding, chattering, Zeno (ball, closing walls) | `piling` |
+//! | jumps of the flow, several at once, one under another's selector, kinks, switch together with guard, switches in tau and t | `switches` |
+//! | sliding, chattering, a relay with hysteresis, Zeno (ball, closing walls) | `piling` |
 //! | very long and very short flights | `flights` |
 //! | stiff flows, the end of the domain, blow-up, the time limit before, at and after an event | `limits` |
 //! | a section before its transition | `before`, with the falling ball of the other tests |

@@ -27,8 +27,8 @@ fn flight(t: f64) -> Matrix3<f64> {
 /// Xi = [[-e, 0], [-(1 + e) g/v, -e]].
 #[test]
 fn impact() {
-    let (g, e, y, v, last) = (9.81, 0.7, 1.0, 0.5, 0.8);
-    let impact = -(v * v + 2.0 * g * y as f64).sqrt();
+    let (g, e, y, v, last) = (9.81_f64, 0.7, 1.0, 0.5, 0.8);
+    let impact = -(v * v + 2.0 * g * y).sqrt();
     let t = (v - impact) / g;
     let xi = Matrix3::new(-e, 0.0, 0.0, -(1.0 + e) * g / impact, -e, 0.0, 0.0, 0.0, 1.0);
     let row = Row::new("impact", Of::Ball, [y, v, 0.0], [g, e, 0.0, 0.0, 0.0, last]);
@@ -38,8 +38,8 @@ fn impact() {
 /// On a floor that moves with u: Xi = [[-e, 0], [-(1 + e) g/(v - u), -e]], by g_t in the transversality.
 #[test]
 fn impact_on_a_moving_floor() {
-    let (g, e, u, y, v, last) = (9.81, 0.7, 0.3, 1.0, 0.5, 0.8);
-    let impact = -((v - u) * (v - u) + 2.0 * g * y as f64).sqrt();
+    let (g, e, u, y, v, last) = (9.81_f64, 0.7, 0.3, 1.0, 0.5, 0.8);
+    let impact = -((v - u) * (v - u) + 2.0 * g * y).sqrt();
     let t = (v - u - impact) / g;
     let xi = Matrix3::new(-e, 0.0, 0.0, -(1.0 + e) * g / impact, -e, 0.0, 0.0, 0.0, 1.0);
     let row = Row::new("floor", Of::Ball, [y, v, 0.0], [g, e, u, 0.0, 0.0, last]);

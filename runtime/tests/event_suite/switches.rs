@@ -2,7 +2,7 @@
 
 use crate::check::{Row, check};
 use crate::common::auto::c;
-use crate::family::{E, EITHER, END, Exact, FALL, Of, System, X, at_last, number};
+use crate::family::{E, EITHER, END, Exact, FALL, Of, RISE, System, X, at_last, number};
 use gaitc_runtime::scalar::Scalar;
 
 /// x' = 1, y' = c before and d after the line x = a + b y. Parameters a, b, c, d, -, T.
@@ -138,6 +138,34 @@ impl System for Nested {
     }
 }
 
+/// x' = y, y' = b up to the time t = a, then c; while tau <= d, z' = e. Parameters a, b, c, d, e, T.
+pub struct Timed;
+
+impl System for Timed {
+    fn flow<S: Scalar>(_: usize, x: &X<S>, e: &E<'_, S>) -> X<S> {
+        [x[1], S::select(e.branch[0], e.p[1], e.p[2]), S::select(e.branch[1], e.p[4], c(0.0))]
+    }
+    fn guard<S: Scalar>(i: usize, x: &X<S>, e: &E<'_, S>) -> Option<S> {
+        match i {
+            END => at_last(e),
+            RISE => Some(x[0]),
+            _ => None,
+        }
+    }
+    fn switch<S: Scalar>(i: usize, _: &X<S>, e: &E<'_, S>) -> S {
+        if i == 0 { e.p[0] - e.t } else { e.p[3] - e.tau }
+    }
+    fn exact<S: Scalar>(x: &X<S>, p: &[S; 6]) -> Option<Exact<S>> {
+        let [a, b, k, d, e, last] = *p;
+        let half = c::<S>(0.5);
+        // x rises through 0 before a, and the clock tau starts again; y goes on.
+        let rise = (-x[1] + (x[1] * x[1] - c::<S>(2.0) * b * x[0]).sqrt()) / b;
+        let (there, speed, rest) = (x[0] + x[1] * a + half * b * a * a, x[1] + b * a, last - a);
+        let end = [there + speed * rest + half * k * rest * rest, speed + k * rest, x[2] + e * d + e * d];
+        Some(Exact { events: vec![(RISE, rise), (END, last)], end })
+    }
+}
+
 #[test]
 fn jumps_of_the_flow() {
     let jump = |name: &str, a: f64, b: f64| Row::new(name, Of::Jump, [0.1, 0.2, 0.0], [a, b, 0.4, -0.7, 0.0, 1.0]);
@@ -147,6 +175,7 @@ fn jumps_of_the_flow() {
         jump("jump at a slope the other way", 0.5, -0.8),
         jump("jump early", 0.1 + 1e-9, 0.0),
         jump("jump late", 1.1 - 1e-9, 0.0),
+        Row::new("switches of clocks", Of::Timed, [-0.5, 0.6, 0.1], [0.9, 0.7, -0.4, 0.3, 1.5, 1.6]),
         Row::new("max of min", Of::Nested, [0.0, 0.2, 0.0], [1.0, 0.2, 0.6, 0.0, 0.0, 1.5]),
     ]);
 }
