@@ -43,6 +43,7 @@ mod piling;
 mod products;
 mod resets;
 mod starts;
+mod sweeps;
 mod switches;
 mod ties;
 mod whens;
