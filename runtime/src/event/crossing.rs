@@ -128,7 +128,12 @@ pub(crate) fn passages(
     rate: &impl Fn(f64) -> f64,
 ) -> Vec<Passage> {
     let noise = start.rounding.max(end.rounding);
-    let turns = turning(start, end, h, rate).into_iter().filter(|u| *u > 0.0).map(|u| (u, value(u)));
+    let changes = changes_sign(side, h, start, end);
+    // With one turn only, it matters when there is nothing else to go by: else it is beyond the crossing, or before it.
+    let once = start.rate * end.rate <= 0.0;
+    let known = once && (changes || dip.is_some());
+    let turns = if known { Vec::new() } else { turning(start, end, h, rate) };
+    let turns = turns.into_iter().filter(|u| *u > 0.0).map(|u| (u, value(u)));
     let mut places: Vec<(f64, f64)> = turns.chain(dip).collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let on_surface = side.sign() * start.value <= start.rounding;
@@ -149,7 +154,7 @@ pub(crate) fn passages(
         }
         largest = largest.max(v.abs());
     }
-    let changes = if now == side { changes_sign(side, h, start, end) } else { now.sign() * end.value <= 0.0 };
+    let changes = if now == side { changes } else { now.sign() * end.value <= 0.0 };
     if changes && now.leaves(direction) {
         found.push(crossing(now, low, (1.0, end.value), value));
     }

@@ -120,31 +120,11 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
     let dense = X::dense::<M, N, P, Q>(frame, step, &mut statistics.evaluations);
     let (mut found, mut touches) = (Vec::new(), Vec::new());
     for (i, w) in watched.iter().enumerate().filter(|(_, w)| w.suspicious(step.h)) {
-        let on_dense = |u: f64| {
-            let at = X::point::<M, N, P, Q>(frame, step, &dense, u);
-            read::<M, N, P, Q>(w.surface, &at.x, &at.k, &frame.env(step.tau + u * step.h))
-        };
-        let ends = (&w.start, &w.end, step.h, w.dip);
-        for passage in passages(w.side, w.direction, ends, w.largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
-            let (h, last) = match passage {
-                Passage::Crossing { low, high, at, from } => {
-                    let bracket = (low * step.h, high * step.h);
-                    exact::<X, M, N, P, Q>(frame, step, w, bracket, (at * step.h, from), work, statistics)
-                }
-                Passage::Touch { at } => (at * step.h, on_dense(at)),
-            };
-            // A passage that does not count is passed over; there may be another one in the same step.
-            if !enabled::<X, M, N, P, Q>(frame, step, w.surface, h, work, statistics) {
-                continue;
-            }
-            if let Passage::Touch { .. } = passage {
-                touches.push((w.surface, h, last.rate));
-                continue;
-            }
+        let touches = &mut touches;
+        if let Some((h, last)) = first_passage::<X, M, N, P, Q>(frame, step, &dense, w, touches, work, statistics) {
             let tau = step.tau + h;
             let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
             found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau).max(0.0) });
-            break;
         }
     }
     let first = found.iter().copied().min_by(|a, b| a.h.total_cmp(&b.h));
@@ -162,6 +142,42 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
         found.retain(|f| f.h - first.h <= f.uncertainty + first.uncertainty);
     }
     found
+}
+
+/// The first passage of a surface that counts: when, after the start of the step, and the surface's reading near it. Notes
+/// touches, with their times and rates.
+fn first_passage<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    step: &StateStep<X, N>,
+    dense: &X::Dense<N>,
+    w: &Watched,
+    touches: &mut Vec<(Surface, f64, f64)>,
+    work: &mut X::Workspace<N>,
+    statistics: &mut Statistics,
+) -> Option<(f64, Reading)> {
+    let on_dense = |u: f64| {
+        let at = X::point::<M, N, P, Q>(frame, step, dense, u);
+        read::<M, N, P, Q>(w.surface, &at.x, &at.k, &frame.env(step.tau + u * step.h))
+    };
+    let ends = (&w.start, &w.end, step.h, w.dip);
+    for passage in passages(w.side, w.direction, ends, w.largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
+        let (h, last) = match passage {
+            Passage::Crossing { low, high, at, from } => {
+                let bracket = (low * step.h, high * step.h);
+                exact::<X, M, N, P, Q>(frame, step, w, bracket, (at * step.h, from), work, statistics)
+            }
+            Passage::Touch { at } => (at * step.h, on_dense(at)),
+        };
+        // One that does not count is passed over; there may be another one in the same step.
+        if !enabled::<X, M, N, P, Q>(frame, step, w.surface, h, work, statistics) {
+            continue;
+        }
+        match passage {
+            Passage::Crossing { .. } => return Some((h, last)),
+            Passage::Touch { .. } => touches.push((w.surface, h, last.rate)),
+        }
+    }
+    None
 }
 
 /// The time of a crossing after the start of the step, exact to rounding, and the surface's reading near it.
