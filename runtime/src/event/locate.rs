@@ -16,9 +16,9 @@ pub(crate) fn locate(
     from: Side,
 ) -> f64 {
     let (mut low, mut high, mut h) = (low, high, guess);
-    let smallest = 2.0 * f64::EPSILON * (tau.abs() + high);
     for _ in 0..ITERATIONS {
         let at = reading(h);
+        let smallest = 2.0 * f64::EPSILON * (tau.abs() + h.abs());
         if at.value == 0.0 || high - low <= smallest {
             return h;
         }
@@ -28,13 +28,13 @@ pub(crate) fn locate(
             high = high.min(h);
         }
         let newton = h - at.value / at.rate;
-        // What is left after Newton's step is of the size of its square.
-        if (newton - h).abs() <= smallest.max(1e-9 * high.abs()) {
+        // What is left after Newton's step is of the size of its square. An event does not lie before the step.
+        if (newton - h).abs() <= smallest.max(1e-9 * h.abs()) && newton >= 0.0 {
             return newton;
         }
         // A bracket from the dense output may miss by its error: Newton may leave it by as much, but no further.
         let slack = 1e-6 * (high - low);
-        h = if newton > low - slack && newton < high + slack { newton } else { 0.5 * (low + high) };
+        h = if newton >= 0.0 && newton > low - slack && newton < high + slack { newton } else { 0.5 * (low + high) };
     }
     h
 }

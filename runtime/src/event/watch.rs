@@ -1,7 +1,7 @@
 //! The surfaces of a mode while it runs: on which side each one is, and the first events inside a step.
 
 use super::arming::{ends_at_once, start_side};
-use super::crossing::{Passage, passage, suspicious};
+use super::crossing::{Passage, passages, suspicious};
 use super::locate::locate;
 use super::surface::{Reading, Side, Surface, read};
 use crate::integrate::{Frame, Method, StateStep, restep};
@@ -65,21 +65,25 @@ impl Watched {
 }
 
 /// Starts to watch the guards of the mode of `frame` and its `switches`, at (`tau`, `x`) with rate `k`. After a switch, `previous` is what
-/// was watched before it: a guard that is zero keeps its side then.
+/// was watched before it: a guard that is zero keeps its side then. `fired` are the surfaces that have just been passed, with
+/// the size of what their values may be off by.
 pub(crate) fn watch<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
     switches: &[usize],
     tau: f64,
     (x, k): (&[f64; N], &[f64; N]),
     typical: f64,
-    previous: &[Watched],
+    (previous, fired): (&[Watched], &[(Surface, f64)]),
 ) -> Result<Vec<Watched>, StopReason> {
     let guards = M::INFO.transitions.iter().enumerate().filter(|(_, t)| t.from == frame.mode);
     let guards = guards.map(|(i, t)| (Surface::Transition(i), t.direction));
     let switches = switches.iter().map(|i| (Surface::Switch(*i), Direction::Either));
     let mut watched = Vec::new();
     for (surface, direction) in guards.chain(switches) {
-        let reading = read::<M, N, P, Q>(surface, x, k, &frame.env(tau));
+        let mut reading = read::<M, N, P, Q>(surface, x, k, &frame.env(tau));
+        if let Some((_, noise)) = fired.iter().find(|(passed, _)| *passed == surface) {
+            reading.rounding = reading.rounding.max(*noise);
+        }
         if !reading.value.is_finite() {
             return Err(StopReason::NotFinite);
         }
@@ -114,40 +118,66 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
     statistics: &mut Statistics,
 ) -> Vec<Found> {
     let dense = X::dense::<M, N, P, Q>(frame, step, &mut statistics.evaluations);
-    let mut found = Vec::new();
+    let (mut found, mut touches) = (Vec::new(), Vec::new());
     for (i, w) in watched.iter().enumerate().filter(|(_, w)| w.suspicious(step.h)) {
-        let on_dense = |u: f64| {
-            let at = X::point::<M, N, P, Q>(frame, step, &dense, u);
-            read::<M, N, P, Q>(w.surface, &at.x, &at.k, &frame.env(step.tau + u * step.h))
-        };
-        let largest = w.largest.max(w.end.value.abs());
-        let ends = (&w.start, &w.end, step.h, w.dip);
-        match passage(w.side, w.direction, ends, largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
-            Some(Passage::Crossing { low, high, at, from }) => {
-                let bracket = (low * step.h, high * step.h);
-                let (h, last) = exact::<X, M, N, P, Q>(frame, step, w, bracket, (at * step.h, from), work, statistics);
-                if !enabled::<X, M, N, P, Q>(frame, step, w.surface, h, work, statistics) {
-                    continue;
-                }
-                let tau = step.tau + h;
-                let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
-                found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau) });
-            }
-            Some(Passage::Touch { at }) => {
-                if let Surface::Transition(transition) = w.surface {
-                    let time = frame.start + step.tau + at * step.h;
-                    warnings.push(Warning::Grazing { transition, time, transversality: on_dense(at).rate });
-                }
-            }
-            None => {}
+        let touches = &mut touches;
+        if let Some((h, last)) = first_passage::<X, M, N, P, Q>(frame, step, &dense, w, touches, work, statistics) {
+            let tau = step.tau + h;
+            let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
+            found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau).max(0.0) });
         }
     }
     let first = found.iter().copied().min_by(|a, b| a.h.total_cmp(&b.h));
+    for (surface, h, transversality) in touches {
+        // What follows the first event is not part of the run.
+        if let Surface::Transition(transition) = surface
+            && first.is_none_or(|first| h < first.h)
+        {
+            let time = frame.start + step.tau + h;
+            warnings.push(Warning::Grazing { transition, time, transversality });
+        }
+    }
     if let Some(first) = first {
         // The order of `watched` (transitions as in the spec, then switches) is kept.
         found.retain(|f| f.h - first.h <= f.uncertainty + first.uncertainty);
     }
     found
+}
+
+/// The first passage of a surface that counts: when, after the start of the step, and the surface's reading near it. Notes
+/// touches, with their times and rates.
+fn first_passage<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    frame: Frame<'_, P>,
+    step: &StateStep<X, N>,
+    dense: &X::Dense<N>,
+    w: &Watched,
+    touches: &mut Vec<(Surface, f64, f64)>,
+    work: &mut X::Workspace<N>,
+    statistics: &mut Statistics,
+) -> Option<(f64, Reading)> {
+    let on_dense = |u: f64| {
+        let at = X::point::<M, N, P, Q>(frame, step, dense, u);
+        read::<M, N, P, Q>(w.surface, &at.x, &at.k, &frame.env(step.tau + u * step.h))
+    };
+    let ends = (&w.start, &w.end, step.h, w.dip);
+    for passage in passages(w.side, w.direction, ends, w.largest, &|u| on_dense(u).value, &|u| on_dense(u).rate) {
+        let (h, last) = match passage {
+            Passage::Crossing { low, high, at, from } => {
+                let bracket = (low * step.h, high * step.h);
+                exact::<X, M, N, P, Q>(frame, step, w, bracket, (at * step.h, from), work, statistics)
+            }
+            Passage::Touch { at } => (at * step.h, on_dense(at)),
+        };
+        // One that does not count is passed over; there may be another one in the same step.
+        if !enabled::<X, M, N, P, Q>(frame, step, w.surface, h, work, statistics) {
+            continue;
+        }
+        match passage {
+            Passage::Crossing { .. } => return Some((h, last)),
+            Passage::Touch { .. } => touches.push((w.surface, h, last.rate)),
+        }
+    }
+    None
 }
 
 /// The time of a crossing after the start of the step, exact to rounding, and the surface's reading near it.

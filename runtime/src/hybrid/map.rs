@@ -54,6 +54,7 @@ where
             self.segment.memory.clear();
             self.segment.memory.extend_from_slice(request.memory);
             self.step.tau = 0.0;
+            self.fired.clear();
             self.leave(section);
             self.deadline = self.segment.start + self.accuracy.time_limit;
             self.check_finite()?;

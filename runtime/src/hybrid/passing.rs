@@ -2,7 +2,7 @@
 
 use super::functionals::{Variation, along, observe};
 use super::run::Run;
-use crate::event::{Found, Side, Surface, gradient};
+use crate::event::{Found, Side, Surface, Watched, gradient, value};
 use crate::integrate::{Carried, Method};
 use crate::model::Model;
 use crate::return_map::{Event, StopReason, Warning};
@@ -14,6 +14,10 @@ const GRAZING: f64 = 1e-4;
 /// A segment shorter than this fraction of the time so far is hasty; so many in a row are a Zeno run.
 const HASTY: f64 = 1e-10;
 const MOST_HASTY: usize = 16;
+/// How many units in the last place of what a surface's function goes through a place on it may be off by.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// By how much a reset that keeps what the guard measures may change what it is off by.
+const KEPT: f64 = 8.0;
 
 /// Derivatives of an event's place along the columns: of state and rate there, of tau and of the time since the start.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +40,7 @@ where
         let surfaces: Vec<Surface> =
             found.iter().filter_map(|f| self.watched.get(f.watched)).map(|w| w.surface).collect();
         let length = self.step.tau + self.step.h;
+        self.note_fired(found);
         self.count_hasty(length, matches!(surfaces.first(), Some(Surface::Transition(_))))?;
         match surfaces.first() {
             Some(&Surface::Transition(i)) => {
@@ -58,11 +63,25 @@ where
         }
     }
 
+    /// Notes the surfaces that are passed at the end of the step: their values are zero there but for rounding, of all that they
+    /// and the state went through on the way, not of the little that is left.
+    fn note_fired(&mut self, found: &[Found]) {
+        self.fired.clear();
+        let tau = self.step.tau + self.step.h;
+        for w in found.iter().filter_map(|f| self.watched.get(f.watched)) {
+            let left = value::<M, N, P, Q>(w.surface, &self.step.end.x, &self.segment.env(tau)).abs();
+            let rounding = ROUNDING * w.largest.max(w.fastest * self.step.h).max(w.start.value.abs());
+            self.fired.push((w.surface, rounding.max(KEPT * left)));
+        }
+    }
+
     /// A transition at once is a step of no length. A switch at once is only a selector that rounding had put on the
     /// other side; it counts when it goes on like that.
     fn count_hasty(&mut self, length: f64, transition: bool) -> Result<(), StopReason> {
         let time = self.segment.start + length;
-        if transition && length <= 4.0 * f64::EPSILON * time.max(self.h) && self.step.tau == 0.0 {
+        // At the beginning of a run the size of a step stands in for the time.
+        let known = if self.segment.start > 0.0 { time } else { time.max(self.h) };
+        if transition && length <= 4.0 * f64::EPSILON * known && self.step.tau == 0.0 {
             return Err(StopReason::Zeno);
         }
         let since_event = self.step.h;
@@ -126,34 +145,42 @@ where
         self.check_finite()
     }
 
+    /// Switches that are passed at one instant are passed one after the other, in the order of the spec: each changes the
+    /// flow by its own part, and its own surface says how that moves.
     fn pass_switches(&mut self, switches: &[usize]) -> Result<(), StopReason> {
         let Some(&first) = switches.first() else {
             return Err(StopReason::NotFinite);
         };
         let tau = self.step.tau + self.step.h;
         let x = self.step.end.x;
-        let (before, integrands) = (self.step.end_rates.x, self.step.end_rates.q);
+        let (mut before, mut integrands) = (self.step.end_rates.x, self.step.end_rates.q);
         let guard = gradient::<M, N, P, Q>(Surface::Switch(first), &x, &self.segment.env(tau));
-        let dx = self.step.end.dx;
+        let mut dx = self.step.end.dx;
         let place = self.place(&Crossing { guard: &guard, reset: None, before, clock: Clock::Restarts });
         self.observe_boundary(&place);
-        for watched in &self.watched {
-            if let Surface::Switch(i) = watched.surface
-                && switches.contains(&i)
+        let was_negative = |w: &Watched| (w.surface, w.side == Side::Negative);
+        let selectors: Vec<(Surface, bool)> = self.watched.iter().map(was_negative).collect();
+        for &i in switches {
+            let guard = gradient::<M, N, P, Q>(Surface::Switch(i), &x, &self.segment.env(tau));
+            if let Some((_, selector)) = selectors.iter().find(|(surface, _)| *surface == Surface::Switch(i))
                 && let Some(slot) = self.segment.branch.get_mut(i)
             {
-                *slot = watched.side == Side::Negative;
+                *slot = *selector;
             }
-        }
-        self.enter(Some(switches))?;
-        let after = self.step.start_rates;
-        let crossing = Crossing { guard: &guard, reset: None, before, clock: Clock::RunsOn(after.x) };
-        for c in 0..C {
-            self.step.start.dx[c] = crossing.pass(&dx[c], &self.segment.dp[c], self.segment.dstart[c], place.dtau[c]);
-            for k in 0..W {
-                self.step.start.dq[c][k] += (integrands[k] - after.q[k]) * place.dtau[c];
+            self.enter(Some(switches))?;
+            let after = self.step.start_rates;
+            let crossing = Crossing { guard: &guard, reset: None, before, clock: Clock::RunsOn(after.x) };
+            for c in 0..C {
+                let (dp, dstart) = (&self.segment.dp[c], self.segment.dstart[c]);
+                let dtau = crossing.time_derivative(&dx[c], dp, dstart);
+                dx[c] = crossing.pass(&dx[c], dp, dstart, dtau);
+                for k in 0..W {
+                    self.step.start.dq[c][k] += (integrands[k] - after.q[k]) * dtau;
+                }
             }
+            (before, integrands) = (after.x, after.q);
         }
+        self.step.start.dx = dx;
         if C > 0 {
             self.begin_rates()?;
         }

@@ -5,7 +5,7 @@
 
 use super::functionals::Functionals;
 use super::segment::Segment;
-use crate::event::{Watched, read};
+use crate::event::{Surface, Watched, read};
 use crate::integrate::{Carried, Method, Purpose, StepOf};
 use crate::model::Model;
 use crate::ode::{Bundle, Controller, Step, Tolerance};
@@ -55,6 +55,8 @@ pub(crate) struct Run<
     pub(crate) ceiling: f64,
     /// Surfaces of the current mode.
     pub(crate) watched: Vec<Watched>,
+    /// Surfaces that have just been passed, with the size of what their values may be off by there.
+    pub(crate) fired: Vec<(Surface, f64)>,
     /// The transition before which the section stands, if it stands before one, ...
     pub(crate) ahead: Option<usize>,
     /// ... and state and variations of the place where that transition was made last.
@@ -106,6 +108,7 @@ where
             h: 0.0,
             ceiling: f64::INFINITY,
             watched: Vec::new(),
+            fired: Vec::new(),
             ahead: None,
             on_section: ([0.0; N], [[0.0; N]; C]),
             functionals,

@@ -81,7 +81,7 @@ where
             }
         }
         let (rate, frame) = (self.step.start_rates.x, self.segment.frame());
-        self.watched = watch::<X, M, N, P, Q>(frame, switches, tau, (&x, &rate), self.h, &self.watched)?;
+        self.watched = watch::<X, M, N, P, Q>(frame, switches, tau, (&x, &rate), self.h, (&self.watched, &self.fired))?;
         Ok(())
     }
 

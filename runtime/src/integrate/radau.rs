@@ -131,6 +131,10 @@ where
                 if uncertainty <= CERTAINTY {
                     step.start_rates =
                         Bundle::ZERO.advance(1.0, Self::TABLEAU.coefficient(0), step.stages.k.each_ref());
+                    if const { M::INFO.explicit } {
+                        // Exactly zero where the flow is: guards that start at zero are armed by that.
+                        step.start_rates.x = M::flow(held.frame.mode, &step.start.x, &held.frame.env(step.tau));
+                    }
                     step.stages.polynomial = None;
                     return Some(match typical {
                         Typical::Size(known) => known,
