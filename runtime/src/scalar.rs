@@ -23,6 +23,16 @@ pub trait Scalar:
     fn sin(self) -> Self;
     /// Cosine of an angle in radians.
     fn cos(self) -> Self;
+    /// Sine and cosine of an angle in radians.
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
+    /// `self * factor + term`, rounded once where the processor can do that.
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
     /// Tangent of an angle in radians.
     fn tan(self) -> Self;
     /// Inverse sine in radians.
@@ -71,6 +81,19 @@ pub trait Scalar:
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
 }
 
+/// Numbers without derivatives, side by side in lanes: what return maps are computed with.
+pub trait Real: Scalar {
+    /// How many there are.
+    const LANES: usize;
+
+    /// The number in a lane; NaN where there is no such lane.
+    fn lane(self, index: usize) -> f64;
+    /// A number for each lane.
+    fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;
+    /// Whether a mask holds in a lane; false where there is no such lane.
+    fn holds(mask: Self::Mask, index: usize) -> bool;
+}
+
 macro_rules! forward {
     ($($name:ident),*) => { $(#[inline] fn $name(self) -> Self { f64::$name(self) })* };
 }
@@ -83,6 +106,11 @@ impl Scalar for f64 {
     #[inline]
     fn constant(value: f64) -> Self {
         value
+    }
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        // Without the instruction, the library's function would take many times as long.
+        if cfg!(target_feature = "fma") { f64::mul_add(self, factor, term) } else { self * factor + term }
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {
@@ -120,5 +148,22 @@ impl Scalar for f64 {
     #[inline]
     fn select(mask: bool, then: Self, otherwise: Self) -> Self {
         if mask { then } else { otherwise }
+    }
+}
+
+impl Real for f64 {
+    const LANES: usize = 1;
+
+    #[inline]
+    fn lane(self, index: usize) -> f64 {
+        if index == 0 { self } else { f64::NAN }
+    }
+    #[inline]
+    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+        number(0)
+    }
+    #[inline]
+    fn holds(mask: bool, index: usize) -> bool {
+        mask && index == 0
     }
 }
