@@ -33,6 +33,22 @@ pub trait Scalar:
     fn mul_add(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
+    /// `self * factor` with a constant factor.
+    #[inline]
+    fn times(self, factor: f64) -> Self {
+        self * Self::constant(factor)
+    }
+    /// `self + factor * other` with a constant factor.
+    #[inline]
+    fn plus_times(self, factor: f64, other: Self) -> Self {
+        other.mul_add(Self::constant(factor), self)
+    }
+    /// Whether it is exactly zero (with all derivatives that it carries).
+    #[inline]
+    fn is_zero(self) -> Self::Mask {
+        let zero = Self::constant(0.0);
+        Self::and(self.less_equal(zero), zero.less_equal(self))
+    }
     /// Tangent of an angle in radians.
     fn tan(self) -> Self;
     /// Inverse sine in radians.

@@ -141,12 +141,12 @@ fn add_time_columns<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     if held.dstart.iter().all(|s| *s == 0.0) {
         return;
     }
-    let constant = |value: f64| Dual { value, derivative: 0.0 };
+    let constant = |value: f64| Dual { value, derivative: [0.0] };
     let frame = held.frame;
     let memory: Vec<Dual> = frame.memory.iter().map(|m| constant(*m)).collect();
     let env = Env {
         tau: constant(tau),
-        t: Dual { value: frame.start + tau, derivative: 1.0 },
+        t: Dual { value: frame.start + tau, derivative: [1.0] },
         p: &frame.p.map(constant),
         memory: &memory,
         branch: frame.branch,
@@ -154,10 +154,10 @@ fn add_time_columns<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     let (flow, integrands) = M::integrated(frame.mode, &x.map(constant), &env);
     for c in 0..C {
         for i in 0..N {
-            dx[c][i] += flow[i].derivative * held.dstart[c];
+            dx[c][i] += flow[i].derivative[0] * held.dstart[c];
         }
         for i in 0..Q {
-            dq[c][i] += integrands[i].derivative * held.dstart[c];
+            dq[c][i] += integrands[i].derivative[0] * held.dstart[c];
         }
     }
 }

@@ -3,6 +3,8 @@
 //! With x' = f(x) and I' = i(x), the columns v of variations obey v' = (df/dx) v + (df/dp) w and so on (the variational
 //! equations); all are advanced by the same linear combinations of stages.
 
+use crate::scalar::Scalar;
+
 /// N states, Q integrals and C columns of their variations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bundle<const N: usize, const Q: usize, const C: usize> {
@@ -18,11 +20,17 @@ pub struct Bundle<const N: usize, const Q: usize, const C: usize> {
 
 /// What a Runge-Kutta method needs to know of what it integrates.
 pub trait OdeState: Copy {
-    /// All zeros.
-    const ZERO: Self;
+    /// The numbers that time is counted in.
+    type Time: Scalar;
 
     /// `self + h * sum(weights[i] * stages[i])`.
-    fn advance<const S: usize>(&self, h: f64, weights: [f64; S], stages: [&Self; S]) -> Self;
+    fn advance<const S: usize>(&self, h: Self::Time, weights: [f64; S], stages: [&Self; S]) -> Self;
+}
+
+/// What error norms need to know of it.
+pub trait Blocks: OdeState<Time = f64> {
+    /// All zeros.
+    const ZERO: Self;
 
     /// Calls `visit(block, start, end)` for each group of components that shares one error norm. The groups of `self`
     /// and `others` are passed side by side.
@@ -35,7 +43,7 @@ impl<const N: usize, const Q: usize, const C: usize> Bundle<N, Q, C> {
 }
 
 impl<const N: usize, const Q: usize, const C: usize> OdeState for Bundle<N, Q, C> {
-    const ZERO: Self = Bundle::ZERO;
+    type Time = f64;
 
     #[inline(always)]
     fn advance<const S: usize>(&self, h: f64, weights: [f64; S], stages: [&Self; S]) -> Self {
@@ -73,6 +81,10 @@ impl<const N: usize, const Q: usize, const C: usize> OdeState for Bundle<N, Q, C
         }
         result
     }
+}
+
+impl<const N: usize, const Q: usize, const C: usize> Blocks for Bundle<N, Q, C> {
+    const ZERO: Self = Bundle::ZERO;
 
     #[inline(always)]
     fn blocks<const S: usize>(&self, others: [&Self; S], visit: &mut impl FnMut(&[f64], [&[f64]; S])) {

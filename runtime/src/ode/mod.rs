@@ -10,6 +10,6 @@ pub mod explicit;
 pub mod radau;
 mod step;
 
-pub use bundle::{Bundle, OdeState};
+pub use bundle::{Blocks, Bundle, OdeState};
 pub use control::{Controller, first_step};
 pub use step::{Step, Tolerance};

@@ -20,59 +20,58 @@
 //! docs/mathematics.md.
 
 use crate::model::{Gradient, Jacobian};
+use crate::scalar::Scalar;
 
 /// What becomes of the clock tau at an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Clock<const N: usize> {
+pub enum Clock<const N: usize, S = f64> {
     /// It starts again at 0: a transition.
     Restarts,
     /// It runs on, with this flow just after the event: a switch.
-    RunsOn([f64; N]),
+    RunsOn([S; N]),
 }
 
 /// An event: guard and reset linearised there.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing<'a, const N: usize, const P: usize> {
+pub struct Crossing<'a, const N: usize, const P: usize, S = f64> {
     /// The guard.
-    pub guard: &'a Gradient<f64, N, P>,
+    pub guard: &'a Gradient<S, N, P>,
     /// The reset; `None` is the identity.
-    pub reset: Option<&'a Jacobian<f64, N, P>>,
+    pub reset: Option<&'a Jacobian<S, N, P>>,
     /// The flow just before.
-    pub before: [f64; N],
+    pub before: [S; N],
     /// The clock.
-    pub clock: Clock<N>,
+    pub clock: Clock<N, S>,
 }
 
-impl<const N: usize, const P: usize> Crossing<'_, N, P> {
+impl<S: Scalar, const N: usize, const P: usize> Crossing<'_, N, P, S> {
     /// Time derivative of the guard along the flow before the event: the transversality.
-    pub fn transversality(&self) -> f64 {
+    pub fn transversality(&self) -> S {
         dot(&self.guard.dx, &self.before) + self.guard.dtau + self.guard.dt
     }
 
     /// d tau*: how the time of the event, on the segment's clock, follows the variations `dx` (of the state at fixed
     /// tau), `dp` (of the parameters) and `dstart` (of the time at which the clock started). 0 where the guard is
     /// touched with zero transversality: the time has no derivative there, and the run carries a warning.
-    pub fn time_derivative(&self, dx: &[f64; N], dp: &[f64; P], dstart: f64) -> f64 {
+    pub fn time_derivative(&self, dx: &[S; N], dp: &[S; P], dstart: S) -> S {
         let rate = self.transversality();
-        if rate == 0.0 {
-            return 0.0;
-        }
-        -(dot(&self.guard.dx, dx) + dot(&self.guard.dp, dp) + self.guard.dt * dstart) / rate
+        let motion = dot(&self.guard.dx, dx) + dot(&self.guard.dp, dp) + self.guard.dt * dstart;
+        S::select(rate.is_zero(), S::constant(0.0), -motion / rate)
     }
 
     /// The variation of the state just after the event, on the clock that runs there; `dtau` as from
     /// [`Self::time_derivative`].
-    pub fn pass(&self, dx: &[f64; N], dp: &[f64; P], dstart: f64, dtau: f64) -> [f64; N] {
+    pub fn pass(&self, dx: &[S; N], dp: &[S; P], dstart: S, dtau: S) -> [S; N] {
         let mut total = *dx;
         for i in 0..N {
-            total[i] += self.before[i] * dtau;
+            total[i] = total[i] + self.before[i] * dtau;
         }
         if let Some(reset) = self.reset {
             total = through(reset, &total, dp, dstart, dtau);
         }
         if let Clock::RunsOn(after) = self.clock {
             for i in 0..N {
-                total[i] -= after[i] * dtau;
+                total[i] = total[i] - after[i] * dtau;
             }
         }
         total
@@ -91,21 +90,21 @@ pub fn saltation_matrix<const N: usize, const P: usize>(crossing: &Crossing<'_, 
 }
 
 /// How variations of the state at an event, its motion in time included, pass the reset.
-pub(crate) fn through<const N: usize, const P: usize>(
-    reset: &Jacobian<f64, N, P>,
-    total: &[f64; N],
-    dp: &[f64; P],
-    dstart: f64,
-    dtau: f64,
-) -> [f64; N] {
-    let mut result = [0.0; N];
+pub(crate) fn through<S: Scalar, const N: usize, const P: usize>(
+    reset: &Jacobian<S, N, P>,
+    total: &[S; N],
+    dp: &[S; P],
+    dstart: S,
+    dtau: S,
+) -> [S; N] {
+    let mut result = [S::constant(0.0); N];
     for i in 0..N {
         let mut sum = reset.dtau[i] * dtau + reset.dt[i] * (dstart + dtau);
         for j in 0..N {
-            sum += reset.dx[j][i] * total[j];
+            sum = sum + reset.dx[j][i] * total[j];
         }
         for j in 0..P {
-            sum += reset.dp[j][i] * dp[j];
+            sum = sum + reset.dp[j][i] * dp[j];
         }
         result[i] = sum;
     }
@@ -113,10 +112,10 @@ pub(crate) fn through<const N: usize, const P: usize>(
 }
 
 /// Scalar product.
-pub(crate) fn dot<const L: usize>(a: &[f64; L], b: &[f64; L]) -> f64 {
-    let mut sum = 0.0;
+pub(crate) fn dot<S: Scalar, const L: usize>(a: &[S; L], b: &[S; L]) -> S {
+    let mut sum = S::constant(0.0);
     for i in 0..L {
-        sum += a[i] * b[i];
+        sum = sum + a[i] * b[i];
     }
     sum
 }

@@ -59,7 +59,7 @@ pub trait Equations<const N: usize, const P: usize, const Q: usize>: Copy + Defa
     ) -> ([S; N], [[S; N]; C]) {
         let zero = [c(0.0); P];
         let columns = core::array::from_fn(|k| {
-            along(x, &dx[k], env, &zero, c(0.0), c(0.0), |x, env| Self::flow(mode, x, env)).map(|d| d.derivative)
+            along(x, &dx[k], env, &zero, c(0.0), c(0.0), |x, env| Self::flow(mode, x, env)).map(|d| d.derivative[0])
         });
         (Self::flow(mode, x, env), columns)
     }
@@ -70,7 +70,7 @@ pub trait Equations<const N: usize, const P: usize, const Q: usize>: Copy + Defa
 pub struct Auto<E>(PhantomData<E>);
 
 fn lift<S: Scalar, const L: usize>(value: &[S; L], derivative: &[S; L]) -> [Dual<S>; L] {
-    core::array::from_fn(|i| Dual { value: value[i], derivative: derivative[i] })
+    core::array::from_fn(|i| Dual { value: value[i], derivative: [derivative[i]] })
 }
 
 /// Evaluates with dual numbers along one direction.
@@ -83,9 +83,9 @@ fn along<S: Scalar, R, const N: usize, const P: usize>(
     dt: S,
     f: impl Fn(&[Dual<S>; N], &Env<'_, Dual<S>, P>) -> R,
 ) -> R {
-    let memory: Vec<Dual<S>> = env.memory.iter().map(|m| Dual { value: *m, derivative: c(0.0) }).collect();
+    let memory: Vec<Dual<S>> = env.memory.iter().map(|m| Dual { value: *m, derivative: [c(0.0)] }).collect();
     let p = lift(env.p, dp);
-    let (tau, t) = (Dual { value: env.tau, derivative: dtau }, Dual { value: env.t, derivative: dt });
+    let (tau, t) = (Dual { value: env.tau, derivative: [dtau] }, Dual { value: env.t, derivative: [dt] });
     f(&lift(x, dx), &Env { tau, t, p: &p, memory: &memory, branch: env.branch })
 }
 
@@ -101,10 +101,10 @@ fn gradient<S: Scalar, const N: usize, const P: usize>(
     let (zx, zp, zero, one) = ([c(0.0); N], [c(0.0); P], c(0.0), c(1.0));
     Gradient {
         value: along(x, &zx, env, &zp, zero, zero, &f).value,
-        dx: core::array::from_fn(|i| along(x, &unit(i), env, &zp, zero, zero, &f).derivative),
-        dp: core::array::from_fn(|i| along(x, &zx, env, &unit(i), zero, zero, &f).derivative),
-        dtau: along(x, &zx, env, &zp, one, zero, &f).derivative,
-        dt: along(x, &zx, env, &zp, zero, one, &f).derivative,
+        dx: core::array::from_fn(|i| along(x, &unit(i), env, &zp, zero, zero, &f).derivative[0]),
+        dp: core::array::from_fn(|i| along(x, &zx, env, &unit(i), zero, zero, &f).derivative[0]),
+        dtau: along(x, &zx, env, &zp, one, zero, &f).derivative[0],
+        dt: along(x, &zx, env, &zp, zero, one, &f).derivative[0],
     }
 }
 
@@ -114,7 +114,7 @@ fn jacobian<S: Scalar, const N: usize, const P: usize>(
     f: impl Fn(&[Dual<S>; N], &Env<'_, Dual<S>, P>) -> [Dual<S>; N],
 ) -> Jacobian<S, N, P> {
     let (zx, zp, zero, one) = ([c(0.0); N], [c(0.0); P], c(0.0), c(1.0));
-    let d = |v: [Dual<S>; N]| v.map(|d| d.derivative);
+    let d = |v: [Dual<S>; N]| v.map(|d| d.derivative[0]);
     Jacobian {
         value: along(x, &zx, env, &zp, zero, zero, &f).map(|d| d.value),
         dx: core::array::from_fn(|i| d(along(x, &unit(i), env, &zp, zero, zero, &f))),
@@ -162,8 +162,8 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
             let (f, i) = along(x, &dx[k], env, &dp[k], c(0.0), c(0.0), |x, env| {
                 (E::flow(mode, x, env), E::integrands(mode, x, env))
             });
-            dflow[k] = f.map(|d| d.derivative);
-            dintegrands[k] = i.map(|d| d.derivative);
+            dflow[k] = f.map(|d| d.derivative[0]);
+            dintegrands[k] = i.map(|d| d.derivative[0]);
         }
         Integrated { flow, integrands, dflow, dintegrands }
     }
@@ -181,7 +181,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         let dk = core::array::from_fn(|i| {
             let moved = lift(k, &unit(i));
             along(x, &held, env, &[c(0.0); P], c(0.0), c(0.0), |x, env| E::residual(mode, x, &moved, env))
-                .map(|d| d.derivative)
+                .map(|d| d.derivative[0])
         });
         ResidualJacobian { value: j.value, dx: j.dx, dk, dp: j.dp, dtau: j.dtau, dt: j.dt }
     }
@@ -202,7 +202,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         let one = |i: usize| {
             let k = lift(k, &d.dk[i]);
             along(x, &d.dx[i], env, &d.dp[i], c(0.0), d.dt[i], |x, env| E::integrands_with_rate(mode, x, &k, env))
-                .map(|d| d.derivative)
+                .map(|d| d.derivative[0])
         };
         (E::integrands_with_rate(mode, x, k, env), core::array::from_fn(one))
     }
@@ -238,7 +238,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
                 .enumerate()
                 .map(|(k, v)| Dual { value: *v, derivative: c(if k == j { 1.0 } else { 0.0 }) })
                 .collect();
-            E::embed(&z, &lift(p, dp)).map(|d| d.derivative)
+            E::embed(&z, &lift(p, dp)).map(|d| d.derivative[0])
         };
         for (j, column) in dz.iter_mut().enumerate() {
             *column = at(j, &zero);
@@ -267,7 +267,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         let dk = core::array::from_fn(|i| {
             let k = lift(k, &unit(i));
             let f = |x: &[Dual<S>; N], env: &Env<'_, Dual<S>, P>| E::observable_with_rate(index, mode, x, &k, env);
-            along(x, &[c(0.0); N], env, &[c(0.0); P], c(0.0), c(0.0), f).derivative
+            along(x, &[c(0.0); N], env, &[c(0.0); P], c(0.0), c(0.0), f).derivative[0]
         });
         RateGradient { value, dx, dk, dp, dtau, dt }
     }
@@ -288,9 +288,9 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
             E::measures(&values, &p, &mut out);
             for i in 0..m {
                 if j < f {
-                    dfunctionals[i * f + j] = out[i].derivative;
+                    dfunctionals[i * f + j] = out[i].derivative[0];
                 } else {
-                    dp[i][j - f] = out[i].derivative;
+                    dp[i][j - f] = out[i].derivative[0];
                 }
             }
         }

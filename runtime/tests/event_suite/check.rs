@@ -170,11 +170,11 @@ fn completed(row: &Row, r: &MapResult, (times, derivatives): (f64, f64), say: &m
 
 /// The derivative of the closed form with respect to a state of the start or a parameter.
 fn derivative(row: &Row, column: usize) -> Exact<f64> {
-    let seed = |i: usize, value: f64| Dual { value, derivative: if i == column { 1.0 } else { 0.0 } };
+    let seed = |i: usize, value: f64| Dual { value, derivative: [if i == column { 1.0 } else { 0.0 }] };
     let x = core::array::from_fn(|i| seed(i, row.start[i]));
     let p = core::array::from_fn(|i| seed(i + 3, row.p[i]));
     let d = exact(row.of, &x, &p).expect("has a closed form");
-    Exact { events: d.events.iter().map(|(i, t)| (*i, t.derivative)).collect(), end: d.end.map(|v| v.derivative) }
+    Exact { events: d.events.iter().map(|(i, t)| (*i, t.derivative[0])).collect(), end: d.end.map(|v| v.derivative[0]) }
 }
 
 /// A warning without its numbers.

@@ -4,7 +4,8 @@
 //! methods of order 5 and 3 (Hairer, Norsett, Wanner, section II.10) so that it behaves like h^8.
 
 use super::coefficients::{A, C, E3, E5, STAGES};
-use crate::ode::{OdeState, Tolerance};
+use crate::ode::{Blocks, OdeState, Tolerance};
+use crate::scalar::Scalar;
 
 /// The stages k_0 to k_11 of a step.
 pub type Stages<V> = [V; STAGES];
@@ -19,25 +20,32 @@ pub(super) use combine;
 
 /// One step of size `h` from (`tau`, `y`), given `k[0]`, the flow there. Fills the other stages, returns the end value.
 #[inline(always)]
-pub fn attempt<V: OdeState>(rates: &impl Fn(f64, &V) -> V, tau: f64, h: f64, y: &V, k: &mut Stages<V>) -> V {
-    k[1] = rates(tau + C[1] * h, &combine!(y, h, k, A[1]; 0));
-    k[2] = rates(tau + C[2] * h, &combine!(y, h, k, A[2]; 0, 1));
-    k[3] = rates(tau + C[3] * h, &combine!(y, h, k, A[3]; 0, 2));
-    k[4] = rates(tau + C[4] * h, &combine!(y, h, k, A[4]; 0, 2, 3));
-    k[5] = rates(tau + C[5] * h, &combine!(y, h, k, A[5]; 0, 3, 4));
-    k[6] = rates(tau + C[6] * h, &combine!(y, h, k, A[6]; 0, 3, 4, 5));
-    k[7] = rates(tau + C[7] * h, &combine!(y, h, k, A[7]; 0, 3, 4, 5, 6));
-    k[8] = rates(tau + C[8] * h, &combine!(y, h, k, A[8]; 0, 3, 4, 5, 6, 7));
-    k[9] = rates(tau + C[9] * h, &combine!(y, h, k, A[9]; 0, 3, 4, 5, 6, 7, 8));
-    k[10] = rates(tau + C[10] * h, &combine!(y, h, k, A[10]; 0, 3, 4, 5, 6, 7, 8, 9));
-    k[11] = rates(tau + C[11] * h, &combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10));
+pub fn attempt<V: OdeState>(
+    rates: &impl Fn(V::Time, &V) -> V,
+    tau: V::Time,
+    h: V::Time,
+    y: &V,
+    k: &mut Stages<V>,
+) -> V {
+    let at = |i: usize| tau.plus_times(C[i], h);
+    k[1] = rates(at(1), &combine!(y, h, k, A[1]; 0));
+    k[2] = rates(at(2), &combine!(y, h, k, A[2]; 0, 1));
+    k[3] = rates(at(3), &combine!(y, h, k, A[3]; 0, 2));
+    k[4] = rates(at(4), &combine!(y, h, k, A[4]; 0, 2, 3));
+    k[5] = rates(at(5), &combine!(y, h, k, A[5]; 0, 3, 4));
+    k[6] = rates(at(6), &combine!(y, h, k, A[6]; 0, 3, 4, 5));
+    k[7] = rates(at(7), &combine!(y, h, k, A[7]; 0, 3, 4, 5, 6));
+    k[8] = rates(at(8), &combine!(y, h, k, A[8]; 0, 3, 4, 5, 6, 7));
+    k[9] = rates(at(9), &combine!(y, h, k, A[9]; 0, 3, 4, 5, 6, 7, 8));
+    k[10] = rates(at(10), &combine!(y, h, k, A[10]; 0, 3, 4, 5, 6, 7, 8, 9));
+    k[11] = rates(at(11), &combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10));
     combine!(y, h, k, A[12]; 0, 5, 6, 7, 8, 9, 10, 11)
 }
 
 /// Error of a step relative to the tolerance: accepted where `<= 1`. The largest root mean square over the blocks; not
 /// finite where any stage that matters is not.
 #[inline(always)]
-pub fn error<V: OdeState>(h: f64, y: &V, end: &V, k: &Stages<V>, tolerance: Tolerance) -> f64 {
+pub fn error<V: Blocks>(h: f64, y: &V, end: &V, k: &Stages<V>, tolerance: Tolerance) -> f64 {
     let e5 = combine!(V::ZERO, h, k, E5; 0, 5, 6, 7, 8, 9, 10, 11);
     let e3 = combine!(V::ZERO, h, k, E3; 0, 5, 6, 7, 8, 9, 10, 11);
     let mut worst = 0.0;
@@ -73,7 +81,7 @@ fn block_error(start: &[f64], end: &[f64], e5: &[f64], e3: &[f64], tolerance: To
 /// How far beyond the method's stability a step reaches: h times the largest rate at which solutions part, as the last
 /// two stages show it, relative to the boundary of the stability region on the negative axis (about 6.1; Hairer, Norsett,
 /// Wanner, section IV.2). Steps that keep above 1 are limited by stability, not by accuracy: the equation is stiff.
-pub fn stiffness<V: OdeState>(h: f64, y: &V, end: &V, end_rates: &V, k: &Stages<V>) -> f64 {
+pub fn stiffness<V: Blocks>(h: f64, y: &V, end: &V, end_rates: &V, k: &Stages<V>) -> f64 {
     let last = combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10);
     let (mut rates, mut values) = (0.0, 0.0);
     y.blocks([end, end_rates, &last, &k[11]], &mut |_, [end, end_rates, last, k]| {

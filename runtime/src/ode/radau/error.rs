@@ -14,7 +14,7 @@
 use super::coefficients::Tableau;
 use super::elimination::row_scale;
 use super::stages::Workspace;
-use crate::ode::{Bundle, OdeState, Tolerance};
+use crate::ode::{Blocks, Bundle, Tolerance};
 
 /// The tolerance for the error estimate of a method with `stages` stages; `factor` as said above.
 pub fn tolerance_of_estimate(tolerance: Tolerance, stages: usize, factor: f64) -> Tolerance {
@@ -30,7 +30,7 @@ pub fn tolerance_of_estimate(tolerance: Tolerance, stages: usize, factor: f64) -
 
 impl<const S: usize> Tableau<S> {
     /// d = h gamma (k_0 - u'(0)).
-    pub fn defect<V: OdeState>(&self, h: f64, start_rates: &V, k: &[V; S]) -> V {
+    pub fn defect<V: Blocks>(&self, h: f64, start_rates: &V, k: &[V; S]) -> V {
         let at_start = V::ZERO.advance(1.0, self.coefficient(0), k.each_ref());
         V::ZERO.advance(h * self.gamma, [1.0, -1.0], [start_rates, &at_start])
     }
