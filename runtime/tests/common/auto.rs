@@ -236,7 +236,7 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
             let z: Vec<Dual<S>> = z
                 .iter()
                 .enumerate()
-                .map(|(k, v)| Dual { value: *v, derivative: c(if k == j { 1.0 } else { 0.0 }) })
+                .map(|(k, v)| Dual { value: *v, derivative: [c(if k == j { 1.0 } else { 0.0 })] })
                 .collect();
             E::embed(&z, &lift(p, dp)).map(|d| d.derivative[0])
         };
@@ -280,10 +280,10 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
             let values: Vec<Dual<S>> = functionals
                 .iter()
                 .enumerate()
-                .map(|(k, v)| Dual { value: *v, derivative: c(if k == j { 1.0 } else { 0.0 }) })
+                .map(|(k, v)| Dual { value: *v, derivative: [c(if k == j { 1.0 } else { 0.0 })] })
                 .collect();
             let p: [Dual<S>; P] =
-                core::array::from_fn(|k| Dual { value: p[k], derivative: c(if k + f == j { 1.0 } else { 0.0 }) });
+                core::array::from_fn(|k| Dual { value: p[k], derivative: [c(if k + f == j { 1.0 } else { 0.0 })] });
             let mut out = vec![c::<Dual<S>>(0.0); m];
             E::measures(&values, &p, &mut out);
             for i in 0..m {
