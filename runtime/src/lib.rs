@@ -11,6 +11,7 @@ pub mod optimize;
 pub mod orbit;
 pub mod probe;
 pub mod registry;
+pub mod replay;
 pub mod return_map;
 pub mod scalar;
 pub mod sensitivity;

@@ -7,6 +7,7 @@
 pub use crate::also_zero::{AlsoZeroAt, Passage};
 pub use crate::closing::Open;
 use crate::model::ModelInfo;
+pub use crate::replay::{Images, Plan, Points, SecondOrder};
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
@@ -230,6 +231,14 @@ pub enum RequestError {
         "model `{0}` has no mass matrix, and for such models there is no `radau3`; take `radau5` to check the explicit method"
     )]
     NoMassMatrix(&'static str),
+    /// A plan of one model was given to another.
+    #[error("the plan was made for model `{made_for}`, not for `{given_to}`; make a plan with the same return map")]
+    ForeignPlan {
+        /// The model of the plan.
+        made_for: &'static str,
+        /// The model that it was given to.
+        given_to: &'static str,
+    },
     /// The model has no section, so it has no return map.
     #[error("model `{0}` has no [section], so it has no return map")]
     NoSection(&'static str),
@@ -245,4 +254,29 @@ pub trait ReturnMap: Send + Sync {
     /// # Errors
     /// When the request itself is wrong; a map without a next section crossing is `Ok(MapOutcome::Stopped)`.
     fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError>;
+
+    /// Evaluates the map, with derivatives in the section coordinates and without measures, and keeps its plan. There is none
+    /// where the map stops, grazes, ties, holds a guard back by its `when`, or is integrated by an implicit method.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    fn plan(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Option<Plan>), RequestError>;
+
+    /// Replays a plan at each point, one after the other; `images` says where it held.
+    ///
+    /// # Errors
+    /// When the plan is another model's, or the points do not fit the model.
+    fn replay(&self, plan: &Plan, points: Points<'_>, images: &mut Images) -> Result<(), RequestError>;
+
+    /// Second derivatives of the map at a point, along its section coordinates and the chosen parameters (by index), on a plan
+    /// that was made at this point. `None` where the plan does not hold.
+    ///
+    /// # Errors
+    /// As [`Self::replay`]; also when a parameter index is out of range.
+    fn second_order(
+        &self,
+        plan: &Plan,
+        point: Points<'_>,
+        chosen: &[usize],
+    ) -> Result<Option<SecondOrder>, RequestError>;
 }

@@ -5,7 +5,7 @@
 use super::functionals::{Variation, Varied, along, observe};
 use super::passing::Place;
 use super::run::Run;
-use crate::event::selectors;
+use crate::event::{Found, Side, Watched, read, selectors};
 use crate::integrate::{Carried, Method};
 use crate::model::{Model, Section};
 use crate::return_map::{MapRequest, StopReason};
@@ -58,7 +58,11 @@ where
             self.leave(section);
             self.deadline = self.segment.start + self.accuracy.time_limit;
             self.check_finite()?;
+            if let Some(record) = &mut self.record {
+                record.turn();
+            }
             self.begin(turn == 0 && request.measures)?;
+            self.note_leg();
             self.run_to_section(section.transition(), turn + 1 == request.period && request.measures)?;
             (at, end) = self.project();
         }
@@ -130,17 +134,42 @@ where
             let found = self.first_events();
             let Some(first) = found.first() else {
                 self.examine_extrema();
+                if let Some(record) = &mut self.record {
+                    record.step(self.step.h, self.error, &self.watched);
+                }
                 self.move_on();
                 continue;
             };
             self.land(first)?;
+            self.note_end(first.h, &found);
             let last = record && self.fires(first.watched, section);
             match self.pass(&found, last)? {
                 Some(transition) if transition == section => return Ok(()),
                 Some(_) => self.begin(false)?,
                 None => {}
             }
+            self.note_leg();
         }
+    }
+
+    fn note_leg(&mut self) {
+        if let Some(record) = &mut self.record {
+            record.leg(self.segment.mode, &self.segment.memory, &self.segment.branch, &self.watched);
+        }
+    }
+
+    fn note_end(&mut self, h: f64, found: &[Found]) {
+        let Some(record) = &mut self.record else {
+            return;
+        };
+        let (x, k, env) = (&self.step.end.x, &self.step.end_rates.x, self.segment.env(self.step.tau + self.step.h));
+        let side = |w: &Watched| {
+            let reading = read::<M, N, P, Q>(w.surface, x, k, &env);
+            if reading.value.abs() > reading.rounding { Side::of(reading.value) } else { Side::Unknown }
+        };
+        let sides: Vec<Side> = self.watched.iter().map(side).collect();
+        let passed: Vec<usize> = found.iter().map(|f| f.watched).collect();
+        record.end(h, &self.watched, &sides, &passed);
     }
 
     fn fires(&self, watched: usize, section: usize) -> bool {

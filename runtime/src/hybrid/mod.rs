@@ -8,6 +8,7 @@ mod functionals;
 mod landing;
 mod map;
 mod passing;
+mod replays;
 mod request;
 mod resolution;
 mod run;
@@ -17,12 +18,15 @@ use crate::integrate;
 use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
 use crate::model::{Model, ModelInfo, Section};
 use crate::return_map::{
-    AlsoZeroAt, MapOutcome, MapRequest, MapResult, Method, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
+    AlsoZeroAt, Images, MapOutcome, MapRequest, MapResult, Method, Plan, Points, RequestError, ReturnMap, SecondOrder,
+    Sensitivity, Stop, StopReason,
 };
+use crate::replay::Record;
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::{Coordinates, Reached};
 use nalgebra::{DMatrix, DVector};
+pub(crate) use resolution::PLACES;
 use run::Run;
 
 /// The largest numbers of columns in one pass. Each width is compiled for each model, so there are few.
@@ -63,12 +67,13 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         let bare = !request.measures && chosen.is_empty();
         loop {
             let width = (count - first).min(if bare { WIDEST_BARE } else { WIDEST_WHOLE });
-            let columns = Columns { first, width, coordinates, chosen, bare };
+            let columns = Columns { first, width, coordinates, chosen, bare, recorded: false };
             let part = match method {
                 Method::Explicit | Method::Automatic => explicit::<M, N, P, Q>(request, section, columns),
                 Method::Radau5 => radau5::<M, N, P, Q>(request, section, columns),
                 Method::Radau3 => radau3::<M, N, P, Q>(request, section, columns),
-            }?;
+            };
+            let (part, _) = part?;
             result = Some(match result {
                 None => part,
                 Some(all) => append(all, part),
@@ -104,6 +109,23 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMa
             Err(failure) => MapOutcome::Stopped(failure.stop),
         })
     }
+
+    fn plan(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Option<Plan>), RequestError> {
+        replays::plan(self, request)
+    }
+
+    fn replay(&self, plan: &Plan, points: Points<'_>, images: &mut Images) -> Result<(), RequestError> {
+        replays::replay::<M, N, P, Q>(plan, points, images)
+    }
+
+    fn second_order(
+        &self,
+        plan: &Plan,
+        point: Points<'_>,
+        chosen: &[usize],
+    ) -> Result<Option<SecondOrder>, RequestError> {
+        replays::second_order::<M, N, P, Q>(plan, point, chosen)
+    }
 }
 
 /// The sensitivity columns of one pass: `width` from number `first`, out of coordinates, then chosen parameters.
@@ -114,6 +136,7 @@ struct Columns<'a> {
     coordinates: usize,
     chosen: &'a [usize],
     bare: bool,
+    recorded: bool,
 }
 
 /// A pass that did not reach the section, and whether stiffness is to blame.
@@ -143,7 +166,7 @@ fn explicit<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<MapResult, Failure> {
+) -> Result<(MapResult, Option<Plan>), Failure> {
     // Nothing of it is compiled for models that have no explicit flow.
     if const { !M::INFO.explicit } {
         return Err(Failure::impossible());
@@ -165,7 +188,7 @@ fn radau5<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<MapResult, Failure> {
+) -> Result<(MapResult, Option<Plan>), Failure> {
     if columns.bare && const { !M::INFO.explicit } {
         widths!(Radau<5>, Bare, 0, (request, section, columns); 4)
     } else {
@@ -178,7 +201,7 @@ fn radau3<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<MapResult, Failure> {
+) -> Result<(MapResult, Option<Plan>), Failure> {
     if const { M::INFO.explicit } {
         return Err(Failure::impossible());
     }
@@ -189,7 +212,7 @@ fn pass<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize,
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<MapResult, Failure>
+) -> Result<(MapResult, Option<Plan>), Failure>
 where
     X: integrate::Method,
     M: Model<N, P, Q>,
@@ -210,8 +233,12 @@ where
     }
     let functionals = Functionals::new(M::INFO, request.measures);
     let mut run = Run::<X, M, R, N, P, Q, W, C>::new(request.accuracy, &p, (dp, columns.width), functionals);
+    run.record = columns.recorded.then(Record::default);
     match run.map(request, section, at) {
-        Ok(reached) => Ok(gather(&run, request, columns, &reached)),
+        Ok(reached) => {
+            let plan = run.record.take().and_then(|record| record.plan(M::INFO, request.accuracy));
+            Ok((gather(&run, request, columns, &reached), plan))
+        }
         Err(reason) => {
             let stop = Stop { reason, time: run.time(), state: run.step.start.x.to_vec() };
             Err(Failure { stop, stiff: run.stiff() })

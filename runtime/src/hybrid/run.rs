@@ -9,6 +9,7 @@ use crate::event::{Surface, Watched, read};
 use crate::integrate::{Carried, Method, Purpose, StepOf};
 use crate::model::Model;
 use crate::ode::{Bundle, Controller, Step, Tolerance};
+use crate::replay::Record;
 use crate::return_map::{Accuracy, Event, Statistics, StopReason, Warning};
 use core::marker::PhantomData;
 
@@ -69,6 +70,10 @@ pub(crate) struct Run<
     pub(crate) warnings: Vec<Warning>,
     /// Work done.
     pub(crate) statistics: Statistics,
+    /// What a plan is made of, where one is wanted.
+    pub(crate) record: Option<Record>,
+    /// Error of the last accepted step, relative to the tolerance.
+    pub(crate) error: f64,
     /// Time since the start of the run after which no step is taken (s).
     pub(crate) deadline: f64,
     /// Events in a row that followed almost at once.
@@ -115,6 +120,8 @@ where
             events: Vec::new(),
             warnings: Vec::new(),
             statistics: Statistics::default(),
+            record: None,
+            error: 0.0,
             deadline: accuracy.time_limit,
             hasty: 0,
             limited: 0,
@@ -157,6 +164,7 @@ where
             self.h = next.min(self.ceiling);
             if accepted {
                 self.ceiling *= CEILING_GROWTH;
+                self.error = size;
                 self.statistics.steps += 1;
                 if self.statistics.steps > UNSUSPICIOUS {
                     self.watch_stiffness();

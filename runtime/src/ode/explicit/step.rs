@@ -42,6 +42,18 @@ pub fn attempt<V: OdeState>(
     combine!(y, h, k, A[12]; 0, 5, 6, 7, 8, 9, 10, 11)
 }
 
+/// Stages that the error estimate is made of, with their weights of orders 5 and 3.
+pub const ERROR_WEIGHTS: [(usize, f64, f64); 8] = {
+    let used = [0, 5, 6, 7, 8, 9, 10, 11];
+    let mut weights = [(0, 0.0, 0.0); 8];
+    let mut i = 0;
+    while i < used.len() {
+        weights[i] = (used[i], E5[used[i]], E3[used[i]]);
+        i += 1;
+    }
+    weights
+};
+
 /// Error of a step relative to the tolerance: accepted where `<= 1`. The largest root mean square over the blocks; not
 /// finite where any stage that matters is not.
 #[inline(always)]

@@ -1,0 +1,85 @@
+//! Plans and replays of a compiled model's return map.
+
+use super::{Columns, Hybrid, explicit, request};
+use crate::model::{Model, ModelInfo, Section};
+use crate::replay::{Images, Plan, Points, SecondOrder, second_order as along_pairs, side_by_side};
+use crate::return_map::{MapOutcome, MapRequest, Method, RequestError, ReturnMap};
+
+/// Runs a map and keeps its plan, if there is one.
+pub(super) fn plan<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    map: &Hybrid<M, N, P, Q>,
+    request: &MapRequest<'_>,
+) -> Result<(MapOutcome, Option<Plan>), RequestError> {
+    let section = request::check(M::INFO, request)?;
+    let width = M::INFO.coordinates.len();
+    let by_explicit = M::INFO.explicit && matches!(request.accuracy.method, Method::Automatic | Method::Explicit);
+    if by_explicit && !request.measures && width <= super::WIDEST_BARE {
+        let columns = Columns { first: 0, width, coordinates: width, chosen: &[], bare: true, recorded: true };
+        match explicit::<M, N, P, Q>(request, section, columns) {
+            Ok((result, plan)) => {
+                let plan = plan.filter(|_| result.warnings.is_empty());
+                return Ok((MapOutcome::Completed(Box::new(result)), plan));
+            }
+            Err(failure) if !failure.stiff => return Ok((MapOutcome::Stopped(failure.stop), None)),
+            Err(_) => {}
+        }
+    }
+    Ok((map.evaluate(request)?, None))
+}
+
+/// Replays a plan at all points.
+pub(super) fn replay<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    plan: &Plan,
+    points: Points<'_>,
+    images: &mut Images,
+) -> Result<(), RequestError> {
+    let section = check(M::INFO, plan)?;
+    let (count, d) = (points.count(M::INFO)?, M::INFO.coordinates.len());
+    images.make_room(count, d);
+    if const { !M::INFO.explicit } {
+        return Ok(());
+    }
+    for point in 0..count {
+        if const { M::INFO.coordinates.len() <= super::NARROW } {
+            side_by_side::<M, f64, N, P, Q, 2>(plan, section, points, point, images);
+        } else {
+            side_by_side::<M, f64, N, P, Q, 4>(plan, section, points, point, images);
+        }
+    }
+    Ok(())
+}
+
+/// Second derivatives at a point.
+pub(super) fn second_order<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    plan: &Plan,
+    point: Points<'_>,
+    chosen: &[usize],
+) -> Result<Option<SecondOrder>, RequestError> {
+    let section = check(M::INFO, plan)?;
+    let count = point.count(M::INFO)?;
+    if count != 1 {
+        return Err(RequestError::Length { what: "points for second derivatives", expected: 1, got: count });
+    }
+    if let Some(&worst) = chosen.iter().find(|i| **i >= P) {
+        let what = "a parameter index of the second derivatives (counted from 0) is out of range: number of parameters";
+        return Err(RequestError::Length { what, expected: P, got: worst });
+    }
+    if const { !M::INFO.explicit } {
+        return Ok(None);
+    }
+    let mut images = Images::default();
+    replay::<M, N, P, Q>(plan, point, &mut images)?;
+    if !images.held.iter().all(|held| *held) {
+        return Ok(None);
+    }
+    let p: [f64; P] = core::array::from_fn(|i| point.parameter(0, i, P));
+    Ok(Some(along_pairs::<M, N, P, Q>(plan, section, point.coordinates, &p, chosen)))
+}
+
+fn check(info: &'static ModelInfo, plan: &Plan) -> Result<Section, RequestError> {
+    // The same equations: names alone would not do.
+    if plan.info.fingerprint != info.fingerprint || plan.info.name != info.name {
+        return Err(RequestError::ForeignPlan { made_for: plan.info.name, given_to: info.name });
+    }
+    info.section.ok_or(RequestError::NoSection(info.name))
+}

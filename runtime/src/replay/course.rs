@@ -1,0 +1,182 @@
+//! A replay in progress: the loop from section to section along a plan, in any number.
+//!
+//! State and variations are integrated on the plan's mesh; each leg ends at its event, located anew (`landing`). Along the
+//! way it is checked, lane by lane, that the error of each step is within the tolerance and that all surfaces are on the
+//! plan's sides (`watching`); a lane for which that is not so is declined: what it holds is no result.
+
+use super::moving::{Moving, within};
+use super::number::Number;
+use super::plan::{Leg, Plan};
+use super::segment::Segment;
+use crate::model::{Model, Section};
+use crate::ode::Tolerance;
+use crate::ode::explicit::{Stages, attempt};
+use crate::sensitivity::through;
+use core::marker::PhantomData;
+
+/// A replay of a plan of model M: numbers S, N states, P parameters, C columns of variations.
+pub(crate) struct Course<'a, M, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize> {
+    /// The plan.
+    pub(crate) plan: &'a Plan,
+    /// What is constant in the leg.
+    pub(crate) segment: Segment<'a, S, P, C>,
+    /// By how much the steps of the leg are longer than the plan's.
+    pub(crate) scale: S,
+    /// State and variations where the replay is, ...
+    pub(crate) at: Moving<S, N, C>,
+    /// ... and their rates.
+    pub(crate) rates: Moving<S, N, C>,
+    /// Clock of the segment.
+    pub(crate) tau: S,
+    /// Stages of the last step.
+    pub(crate) stages: Stages<Moving<S, N, C>>,
+    /// Lanes that are not declined.
+    pub(crate) valid: S::Mask,
+    /// Readings (value and rate) of the watched surfaces where the replay is.
+    pub(crate) readings: Vec<(S, S)>,
+    /// Where the section stands, ...
+    pub(crate) section: Section,
+    /// ... and, if it stands before a transition, state and variations there.
+    pub(crate) on_section: Moving<S, N, C>,
+    kind: PhantomData<M>,
+}
+
+impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize>
+    Course<'a, M, S, N, P, Q, C>
+{
+    /// A replay that has not started.
+    pub(crate) fn new(plan: &'a Plan, section: Section, p: &'a [S; P]) -> Self {
+        let (zero, none) = (S::constant(0.0), Moving::zero());
+        Self {
+            plan,
+            segment: Segment::new(p),
+            scale: S::constant(1.0),
+            at: none,
+            rates: none,
+            tau: zero,
+            stages: [none; 12],
+            valid: S::mask(true),
+            readings: Vec::new(),
+            section,
+            on_section: none,
+            kind: PhantomData,
+        }
+    }
+
+    /// Replays the whole map from section coordinates `z` with variations `dz`; returns where it ends.
+    pub(crate) fn map(&mut self, z: &[S], dz: &[[S; N]; C]) -> Moving<S, N, C> {
+        let mut coordinates = Moving { x: [S::constant(0.0); N], dx: *dz };
+        for (slot, z) in coordinates.x.iter_mut().zip(z) {
+            *slot = *z;
+        }
+        for turn in &self.plan.turns {
+            self.embed(&coordinates);
+            self.tau = S::constant(0.0);
+            self.leave(turn);
+            for (i, leg) in turn.iter().enumerate() {
+                self.begin(leg);
+                self.steps(leg, 0, usize::MAX);
+                self.land(leg, turn.get(i + 1));
+            }
+            coordinates = self.project();
+        }
+        coordinates
+    }
+
+    /// State on the section and its variations.
+    fn embed(&mut self, coordinates: &Moving<S, N, C>) {
+        let z = coordinates.x.get(..M::INFO.coordinates.len()).unwrap_or(&[]);
+        self.at.x = M::embed(z, self.segment.p);
+        if C == 0 {
+            return;
+        }
+        let mut by_z = [[S::constant(0.0); N]; N];
+        M::embed_jacobian(z, self.segment.p, by_z.get_mut(..z.len()).unwrap_or(&mut []));
+        for c in 0..C {
+            for i in 0..N {
+                let mut sum = S::constant(0.0);
+                for j in 0..z.len() {
+                    sum = by_z[j][i].mul_add(coordinates.dx[c][j], sum);
+                }
+                self.at.dx[c][i] = sum;
+            }
+        }
+    }
+
+    /// Makes the transition that follows a section which stands before one.
+    fn leave(&mut self, turn: &[Leg]) {
+        let (Section::Before(i), Some(leg)) = (self.section, turn.first()) else {
+            return;
+        };
+        self.segment.set_branch(&leg.branch);
+        self.segment.set_memory(&leg.memory);
+        let zero = S::constant(0.0);
+        let x = self.at.x;
+        if C > 0 {
+            let reset = M::reset_jacobian(i, &x, &self.segment.env(zero));
+            for c in 0..C {
+                self.at.dx[c] = through(&reset, &self.at.dx[c], &[zero; P], self.segment.dstart[c], zero);
+            }
+        }
+        self.at.x = self.segment.reset::<M, N, Q>(i, &x, zero);
+    }
+
+    /// Starts a leg where the replay is.
+    pub(crate) fn begin(&mut self, leg: &Leg) {
+        self.segment.mode = leg.mode;
+        self.segment.set_memory(&leg.memory);
+        self.segment.set_branch(&leg.branch);
+        self.rates = self.segment.rates::<M, N, Q>(self.tau, &self.at);
+        self.scale = self.scale(leg);
+        self.read_start(leg);
+    }
+
+    /// Takes the steps of a leg from number `first` to before `last`, but for the one in which the leg ends.
+    pub(crate) fn steps(&mut self, leg: &Leg, first: usize, last: usize) {
+        let count = leg.sizes.len().saturating_sub(1).min(last);
+        for step in first..count {
+            let h = leg.sizes.get(step).map_or(self.scale, |size| self.scale.times(*size));
+            let (end, rates) = self.step(h);
+            if S::ORDER == 0 {
+                let tolerance =
+                    Tolerance { relative: self.plan.accuracy.relative, absolute: self.plan.accuracy.absolute };
+                self.valid = S::and(self.valid, within(h, &self.at, &end, &self.stages, tolerance));
+            }
+            (self.at, self.rates, self.tau) = (end, rates, self.tau + h);
+            self.watch(leg, step, h);
+        }
+    }
+
+    /// One step of size `h` from where the replay is; its end, and the rates there.
+    #[inline(never)]
+    pub(crate) fn step(&mut self, h: S) -> (Moving<S, N, C>, Moving<S, N, C>) {
+        let Self { segment, stages, tau, at, .. } = self;
+        let rates = |tau: S, y: &Moving<S, N, C>| segment.rates::<M, N, Q>(tau, y);
+        stages[0] = self.rates;
+        let end = attempt(&rates, *tau, h, at, stages);
+        let last = rates(*tau + h, &end);
+        (end, last)
+    }
+
+    /// Applies the symmetry to the state on the section and takes its coordinates.
+    fn project(&self) -> Moving<S, N, C> {
+        let mut state = if matches!(self.section, Section::Before(_)) { self.on_section } else { self.at };
+        if M::INFO.symmetric {
+            if C > 0 {
+                let by = M::symmetry_jacobian(&state.x, self.segment.p).dx;
+                state.dx = state.dx.map(|column| {
+                    core::array::from_fn(|i| (0..N).fold(S::constant(0.0), |sum, j| by[j][i].mul_add(column[j], sum)))
+                });
+            }
+            state.x = M::symmetry(&state.x, self.segment.p);
+        }
+        let mut result = Moving::zero();
+        for (k, &i) in M::INFO.coordinates.iter().enumerate().filter(|(k, i)| *k < N && **i < N) {
+            result.x[k] = state.x[i];
+            for c in 0..C {
+                result.dx[c][k] = state.dx[c][i];
+            }
+        }
+        result
+    }
+}

@@ -1,0 +1,93 @@
+//! State and variations in any number, one step of them, and whether its error is within the tolerance.
+
+use super::number::Number;
+use crate::ode::explicit::{ERROR_WEIGHTS, Stages};
+use crate::ode::{OdeState, Tolerance};
+
+/// N states and C columns of their variations.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moving<S, const N: usize, const C: usize> {
+    /// The state.
+    pub(crate) x: [S; N],
+    /// Variations, one array a column.
+    pub(crate) dx: [[S; N]; C],
+}
+
+impl<S: Number, const N: usize, const C: usize> Moving<S, N, C> {
+    /// All zeros.
+    pub(crate) fn zero() -> Self {
+        Self { x: [S::constant(0.0); N], dx: [[S::constant(0.0); N]; C] }
+    }
+}
+
+#[inline(always)]
+fn combination<S: Number, const K: usize>(weights: &[f64; K], stage: impl Fn(usize) -> S) -> S {
+    let mut sum = stage(0).times(weights[0]);
+    for s in 1..K {
+        sum = sum.plus_times(weights[s], stage(s));
+    }
+    sum
+}
+
+impl<S: Number, const N: usize, const C: usize> OdeState for Moving<S, N, C> {
+    type Time = S;
+
+    #[inline(always)]
+    fn advance<const K: usize>(&self, h: S, weights: [f64; K], stages: [&Self; K]) -> Self {
+        let mut result = *self;
+        for i in 0..N {
+            result.x[i] = combination(&weights, |s| stages[s].x[i]).mul_add(h, self.x[i]);
+        }
+        for c in 0..C {
+            for i in 0..N {
+                result.dx[c][i] = combination(&weights, |s| stages[s].dx[c][i]).mul_add(h, self.dx[c][i]);
+            }
+        }
+        result
+    }
+}
+
+/// Where the error of a step is within the tolerance: the same norm that accepts steps elsewhere.
+#[inline(always)]
+pub(crate) fn within<S: Number, const N: usize, const C: usize>(
+    h: S,
+    start: &Moving<S, N, C>,
+    end: &Moving<S, N, C>,
+    k: &Stages<Moving<S, N, C>>,
+    tolerance: Tolerance,
+) -> S::Mask {
+    let mut ok = block(h, &start.x, &end.x, &|s, i| k[s].x[i], tolerance);
+    for c in 0..C {
+        ok = S::and(ok, block(h, &start.dx[c], &end.dx[c], &|s, i| k[s].dx[c][i], tolerance));
+    }
+    ok
+}
+
+#[inline(always)]
+fn block<S: Number, const N: usize>(
+    h: S,
+    start: &[S; N],
+    end: &[S; N],
+    stage: &impl Fn(usize, usize) -> S,
+    tolerance: Tolerance,
+) -> S::Mask {
+    let larger = |a: S, b: S| S::select(a.less(b), b, a);
+    let mut floor = S::constant(1.0);
+    for i in 0..N {
+        floor = larger(floor, start[i].abs());
+    }
+    let floor = floor.times(tolerance.absolute);
+    let (mut sum5, mut sum3) = (S::constant(0.0), S::constant(0.0));
+    for i in 0..N {
+        let (mut e5, mut e3) = (S::constant(0.0), S::constant(0.0));
+        for (s, five, three) in ERROR_WEIGHTS {
+            let k = stage(s, i);
+            (e5, e3) = (e5.plus_times(five, k), e3.plus_times(three, k));
+        }
+        let scale = h / floor.plus_times(tolerance.relative, larger(start[i].abs(), end[i].abs()));
+        let (e5, e3) = (e5 * scale, e3 * scale);
+        (sum5, sum3) = (e5.mul_add(e5, sum5), e3.mul_add(e3, sum3));
+    }
+    // sum5 / sqrt((sum5 + sum3 / 100) N) <= 1, false where it is not a number.
+    (sum5 * sum5).less_equal(sum5.plus_times(0.01, sum3).times(N as f64))
+}

@@ -1,0 +1,80 @@
+//! A plan: what a map did that was integrated with error control and event location, so that maps near it can do the same
+//! without looking for it.
+//!
+//! It holds the mesh of step sizes, the modes, memory and selectors of each leg, on which side of every surface each step
+//! ended, and which events ended the legs. It holds no number of the solution: a replay computes everything anew.
+
+use crate::event::{Side, Surface};
+use crate::model::ModelInfo;
+use crate::return_map::Accuracy;
+
+/// The plan of a return map.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The model that it was made for.
+    pub(crate) info: &'static ModelInfo,
+    /// The accuracy that it was made with, and that replays are held to.
+    pub(crate) accuracy: Accuracy,
+    /// For each map that is composed, its legs.
+    pub(crate) turns: Vec<Vec<Leg>>,
+}
+
+/// From one event to the next.
+#[derive(Clone, Debug)]
+pub(crate) struct Leg {
+    /// Index of the mode.
+    pub(crate) mode: usize,
+    /// Memory.
+    pub(crate) memory: Vec<f64>,
+    /// Branch selectors.
+    pub(crate) branch: Vec<bool>,
+    /// Sizes of the steps (s).
+    pub(crate) sizes: Vec<f64>,
+    /// Errors of the steps relative to the tolerance; 0 for the last one, which is no more than a part of a step.
+    pub(crate) errors: Vec<f64>,
+    /// The surfaces that are watched.
+    pub(crate) watched: Vec<Sides>,
+    /// How it ends.
+    pub(crate) end: End,
+}
+
+/// A surface through a leg.
+#[derive(Clone, Debug)]
+pub(crate) struct Sides {
+    /// Which.
+    pub(crate) surface: Surface,
+    /// Its side at the start, and at the end of each step.
+    pub(crate) at: Vec<Side>,
+    /// Whether its function depends on time and parameters only.
+    pub(crate) clock_only: bool,
+}
+
+/// How a leg ends.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct End {
+    /// The surfaces that are passed at the same instant; the first decides when. A transition stands alone among its like.
+    pub(crate) surfaces: Vec<Surface>,
+    /// Whether the time of the first follows from the parameters alone.
+    pub(crate) clock_only: bool,
+    /// Largest magnitude of the first one's rate in the leg.
+    pub(crate) fastest: f64,
+}
+
+impl Plan {
+    /// How many steps a replay takes.
+    pub fn steps(&self) -> usize {
+        self.legs().map(|leg| leg.sizes.len()).sum()
+    }
+
+    /// All legs in order of time.
+    pub(crate) fn legs(&self) -> impl Iterator<Item = &Leg> {
+        self.turns.iter().flatten()
+    }
+}
+
+impl Leg {
+    /// Duration (s).
+    pub(crate) fn length(&self) -> f64 {
+        self.sizes.iter().sum()
+    }
+}

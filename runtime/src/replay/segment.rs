@@ -1,0 +1,117 @@
+//! What a replay holds constant while the clock runs, and the rates of state and variations under it.
+
+use super::moving::Moving;
+use super::number::Number;
+use crate::event::Surface;
+use crate::model::{Env, Gradient, Model};
+use crate::sensitivity::Dual;
+
+/// Mode, start of the clock, parameters, memory, selectors: numbers S, P parameters, C columns.
+#[derive(Clone, Debug)]
+pub(crate) struct Segment<'a, S: Number, const P: usize, const C: usize> {
+    /// Index of the mode.
+    pub(crate) mode: usize,
+    /// Parameters.
+    pub(crate) p: &'a [S; P],
+    /// Memory.
+    pub(crate) memory: Vec<S>,
+    /// Branch selectors.
+    pub(crate) branch: Vec<S::Mask>,
+    /// Time since the start of the replay at which the clock was 0, ...
+    pub(crate) start: S,
+    /// ... and its variations.
+    pub(crate) dstart: [S; C],
+}
+
+impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
+    /// Nothing yet.
+    pub(crate) fn new(p: &'a [S; P]) -> Self {
+        let zero = S::constant(0.0);
+        Self { mode: usize::MAX, p, memory: Vec::new(), branch: Vec::new(), start: zero, dstart: [zero; C] }
+    }
+
+    /// The environment at `tau`.
+    #[inline(always)]
+    pub(crate) fn env(&self, tau: S) -> Env<'_, S, P> {
+        Env { tau, t: self.start + tau, p: self.p, memory: &self.memory, branch: &self.branch }
+    }
+
+    /// Takes these selectors.
+    pub(crate) fn set_branch(&mut self, branch: &[bool]) {
+        self.branch.clear();
+        self.branch.extend(branch.iter().map(|b| S::mask(*b)));
+    }
+
+    /// Takes this memory.
+    pub(crate) fn set_memory(&mut self, memory: &[f64]) {
+        self.memory.clear();
+        self.memory.extend(memory.iter().map(|m| S::constant(*m)));
+    }
+
+    /// State after a transition; the memory becomes that after it.
+    pub(crate) fn reset<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &mut self,
+        transition: usize,
+        x: &[S; N],
+        tau: S,
+    ) -> [S; N] {
+        let mut memory = self.memory.clone();
+        let after = M::reset(transition, x, &self.env(tau), &mut memory);
+        self.memory = memory;
+        after
+    }
+
+    /// A surface's function with its derivatives.
+    pub(crate) fn gradient<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        surface: Surface,
+        x: &[S; N],
+        tau: S,
+    ) -> Gradient<S, N, P> {
+        match surface {
+            Surface::Transition(i) => M::guard_gradient(i, x, &self.env(tau)),
+            Surface::Switch(i) => M::switch_gradient(i, x, &self.env(tau)),
+        }
+    }
+
+    /// Rates of state and variations.
+    #[inline]
+    pub(crate) fn rates<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        tau: S,
+        y: &Moving<S, N, C>,
+    ) -> Moving<S, N, C> {
+        let (x, mut dx) = M::variational(self.mode, &y.x, &y.dx, &self.env(tau));
+        if M::INFO.uses_time && C > 0 {
+            let by_t = self.along_time::<M, N, Q>(tau, &y.x, S::constant(0.0), &[S::constant(0.0); N]);
+            for c in 0..C {
+                for i in 0..N {
+                    dx[c][i] = by_t[i].mul_add(self.dstart[c], dx[c][i]);
+                }
+            }
+        }
+        Moving { x, dx }
+    }
+
+    /// The derivative of the flow with t, with the clock at the rate `dtau`, and with the state at the rate `dx`.
+    #[inline(never)]
+    pub(crate) fn along_time<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        tau: S,
+        x: &[S; N],
+        dtau: S,
+        dx: &[S; N],
+    ) -> [S; N] {
+        let fixed = |value: S| Dual { value, derivative: [S::constant(0.0)] };
+        let memory: Vec<Dual<S>> = self.memory.iter().map(|m| fixed(*m)).collect();
+        let env = Env {
+            tau: Dual { value: tau, derivative: [dtau] },
+            t: Dual::variable(self.start + tau, 0),
+            p: &self.p.map(fixed),
+            memory: &memory,
+            branch: &self.branch,
+        };
+        let x = core::array::from_fn(|i| Dual { value: x[i], derivative: [dx[i]] });
+        M::flow(self.mode, &x, &env).map(|rate| rate.derivative[0])
+    }
+}
