@@ -71,10 +71,14 @@ impl<S: Scalar> Scalar for Dual<S> {
         Self { value: S::constant(value), derivative: S::constant(0.0) }
     }
     fn sin(self) -> Self {
-        self.chain(self.value.sin(), self.value.cos())
+        self.sin_cos().0
     }
     fn cos(self) -> Self {
-        self.chain(self.value.cos(), -self.value.sin())
+        self.sin_cos().1
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.chain(sin, cos), self.chain(cos, -sin))
     }
     fn tan(self) -> Self {
         let tan = self.value.tan();
