@@ -1,6 +1,9 @@
 //! The numbers that generated code computes with: `f64`, SIMD lanes and dual numbers by the same code.
 
+mod lanes;
 mod sine;
+
+pub use lanes::{LaneMask, Lanes};
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
