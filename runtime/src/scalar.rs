@@ -1,4 +1,9 @@
-//! The numbers that generated code computes with: `f64` today, SIMD lanes and dual numbers by the same code.
+//! The numbers that generated code computes with: `f64`, SIMD lanes and dual numbers by the same code.
+
+mod lanes;
+mod sine;
+
+pub use lanes::{LaneMask, Lanes};
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -110,6 +115,9 @@ pub trait Real: Scalar {
     fn holds(mask: Self::Mask, index: usize) -> bool;
 }
 
+/// Whether the processor multiplies and adds with one rounding.
+pub(crate) const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+
 macro_rules! forward {
     ($($name:ident),*) => { $(#[inline] fn $name(self) -> Self { f64::$name(self) })* };
 }
@@ -117,16 +125,28 @@ macro_rules! forward {
 impl Scalar for f64 {
     type Mask = bool;
 
-    forward!(sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, sqrt, abs);
+    forward!(tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, sqrt, abs);
 
     #[inline]
     fn constant(value: f64) -> Self {
         value
     }
     #[inline]
+    fn sin(self) -> Self {
+        sine::sin_cos(self).0
+    }
+    #[inline]
+    fn cos(self) -> Self {
+        sine::sin_cos(self).1
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        sine::sin_cos(self)
+    }
+    #[inline]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         // Without the instruction, the library's function would take many times as long.
-        if cfg!(target_feature = "fma") { f64::mul_add(self, factor, term) } else { self * factor + term }
+        if FUSED { f64::mul_add(self, factor, term) } else { self * factor + term }
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {

@@ -17,11 +17,11 @@ mod segment;
 use crate::integrate;
 use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
 use crate::model::{Model, ModelInfo, Section};
+use crate::replay::Record;
 use crate::return_map::{
     AlsoZeroAt, Images, MapOutcome, MapRequest, MapResult, Method, Plan, Points, RequestError, ReturnMap, SecondOrder,
     Sensitivity, Stop, StopReason,
 };
-use crate::replay::Record;
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::{Coordinates, Reached};

@@ -4,6 +4,10 @@ use super::{Columns, Hybrid, explicit, request};
 use crate::model::{Model, ModelInfo, Section};
 use crate::replay::{Images, Plan, Points, SecondOrder, second_order as along_pairs, side_by_side};
 use crate::return_map::{MapOutcome, MapRequest, Method, RequestError, ReturnMap};
+use crate::scalar::{Lanes, Real};
+
+/// So many maps take longer one by one than in lanes, some of which stay idle.
+const WORTH_LANES: usize = 3;
 
 /// Runs a map and keeps its plan, if there is one.
 pub(super) fn plan<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
@@ -39,14 +43,32 @@ pub(super) fn replay<M: Model<N, P, Q>, const N: usize, const P: usize, const Q:
     if const { !M::INFO.explicit } {
         return Ok(());
     }
-    for point in 0..count {
-        if const { M::INFO.coordinates.len() <= super::NARROW } {
-            side_by_side::<M, f64, N, P, Q, 2>(plan, section, points, point, images);
-        } else {
-            side_by_side::<M, f64, N, P, Q, 4>(plan, section, points, point, images);
-        }
+    if const { M::INFO.coordinates.len() <= super::NARROW } {
+        points_of::<M, N, P, Q, 2>(plan, section, points, count, images);
+    } else {
+        points_of::<M, N, P, Q, 4>(plan, section, points, count, images);
     }
     Ok(())
+}
+
+/// Side by side in lanes as far as that pays. A lane has the bits of a single number, so that it does not show.
+fn points_of<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>(
+    plan: &Plan,
+    section: Section,
+    points: Points<'_>,
+    count: usize,
+    images: &mut Images,
+) {
+    let mut first = 0;
+    while first < count {
+        if count - first >= WORTH_LANES {
+            side_by_side::<M, Lanes, N, P, Q, C>(plan, section, points, first, images);
+            first += <Lanes as Real>::LANES;
+        } else {
+            side_by_side::<M, f64, N, P, Q, C>(plan, section, points, first, images);
+            first += 1;
+        }
+    }
 }
 
 /// Second derivatives at a point.

@@ -58,13 +58,19 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         if !leg.end.clock_only || leg.length() <= 0.0 {
             return one;
         }
-        let mut length = S::constant(leg.length());
+        let (mut length, mut done) = (S::constant(leg.length()), S::mask(false));
         for _ in 0..ATTEMPTS {
             let g = self.gradient(surface, &self.at.x, self.tau + length);
             let excess = g.value / (g.dtau + g.dt);
-            length = length - excess;
-            if S::ORDER == 0 && S::all(excess.abs().less_equal(length.abs().times(f64::EPSILON))) {
+            // What one lane needs must not show in another.
+            length = S::select(done, length, length - excess);
+            let small = excess.abs().less_equal(length.abs().times(f64::EPSILON));
+            done = S::or(done, small);
+            if S::ORDER == 0 && S::all(done) {
                 break;
+            }
+            if S::ORDER > 0 {
+                done = S::mask(false);
             }
         }
         length.times(1.0 / leg.length())
