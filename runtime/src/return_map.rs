@@ -7,7 +7,7 @@
 pub use crate::also_zero::{AlsoZeroAt, Passage};
 pub use crate::closing::Open;
 use crate::model::ModelInfo;
-pub use crate::replay::{Images, Plan, Points, SecondOrder};
+pub use crate::replay::{Images, Piece, PieceEnd, Plan, Points, SecondOrder};
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
@@ -231,6 +231,12 @@ pub enum RequestError {
         "model `{0}` has no mass matrix, and for such models there is no `radau3`; take `radau5` to check the explicit method"
     )]
     NoMassMatrix(&'static str),
+    /// Multiple shooting was asked for where there is no plan to cut.
+    #[error(
+        "the return map of model `{0}` cannot be cut into segments here (several maps in a row, a mass matrix, a tie or grazing \
+         on the way); use 1 segment"
+    )]
+    NoPlan(&'static str),
     /// A plan of one model was given to another.
     #[error("the plan was made for model `{made_for}`, not for `{given_to}`; make a plan with the same return map")]
     ForeignPlan {
@@ -267,6 +273,13 @@ pub trait ReturnMap: Send + Sync {
     /// # Errors
     /// When the plan is another model's, or the points do not fit the model.
     fn replay(&self, plan: &Plan, points: Points<'_>, images: &mut Images) -> Result<(), RequestError>;
+
+    /// Runs a piece of a plan from `start`: section coordinates for the first piece, a full state for the others. `None` where
+    /// the plan does not hold.
+    ///
+    /// # Errors
+    /// When the plan is another model's, or a length does not fit.
+    fn piece(&self, piece: &Piece, start: &[f64], parameters: &[f64]) -> Result<Option<PieceEnd>, RequestError>;
 
     /// Second derivatives of the map at a point, along its section coordinates and the chosen parameters (by index), on a plan
     /// that was made at this point. `None` where the plan does not hold.

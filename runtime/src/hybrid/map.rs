@@ -154,7 +154,7 @@ where
 
     fn note_leg(&mut self) {
         if let Some(record) = &mut self.record {
-            record.leg(self.segment.mode, &self.segment.memory, &self.segment.branch, &self.watched);
+            record.leg(self.segment.mode, self.step.tau, &self.segment.memory, &self.segment.branch, &self.watched);
         }
     }
 

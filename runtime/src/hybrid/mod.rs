@@ -19,8 +19,8 @@ use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
 use crate::model::{Model, ModelInfo, Section};
 use crate::replay::Record;
 use crate::return_map::{
-    AlsoZeroAt, Images, MapOutcome, MapRequest, MapResult, Method, Plan, Points, RequestError, ReturnMap, SecondOrder,
-    Sensitivity, Stop, StopReason,
+    AlsoZeroAt, Images, MapOutcome, MapRequest, MapResult, Method, Piece, PieceEnd, Plan, Points, RequestError,
+    ReturnMap, SecondOrder, Sensitivity, Stop, StopReason,
 };
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
@@ -116,6 +116,10 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMa
 
     fn replay(&self, plan: &Plan, points: Points<'_>, images: &mut Images) -> Result<(), RequestError> {
         replays::replay::<M, N, P, Q>(plan, points, images)
+    }
+
+    fn piece(&self, piece: &Piece, start: &[f64], parameters: &[f64]) -> Result<Option<PieceEnd>, RequestError> {
+        replays::piece::<M, N, P, Q>(piece, start, parameters)
     }
 
     fn second_order(

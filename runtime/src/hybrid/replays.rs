@@ -2,7 +2,9 @@
 
 use super::{Columns, Hybrid, explicit, request};
 use crate::model::{Model, ModelInfo, Section};
-use crate::replay::{Images, Plan, Points, SecondOrder, second_order as along_pairs, side_by_side};
+use crate::replay::{
+    Images, Piece, PieceEnd, Plan, Points, SecondOrder, run_piece, second_order as along_pairs, side_by_side,
+};
 use crate::return_map::{MapOutcome, MapRequest, Method, RequestError, ReturnMap};
 use crate::scalar::{Lanes, Real};
 
@@ -69,6 +71,30 @@ fn points_of<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, 
             first += 1;
         }
     }
+}
+
+/// Runs a piece of a plan.
+pub(super) fn piece<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    piece: &Piece,
+    start: &[f64],
+    parameters: &[f64],
+) -> Result<Option<PieceEnd>, RequestError> {
+    let section = check(M::INFO, &piece.plan)?;
+    let expected = if piece.from_section { M::INFO.coordinates.len() } else { N };
+    if start.len() != expected {
+        return Err(RequestError::Length { what: "start of a piece", expected, got: start.len() });
+    }
+    let Ok(p) = <&[f64; P]>::try_from(parameters) else {
+        return Err(RequestError::Length { what: "parameters", expected: P, got: parameters.len() });
+    };
+    if const { !M::INFO.explicit } {
+        return Ok(None);
+    }
+    Ok(if const { M::INFO.coordinates.len() <= super::NARROW } {
+        run_piece::<M, N, P, Q, 2>(piece, section, start, p)
+    } else {
+        run_piece::<M, N, P, Q, 4>(piece, section, start, p)
+    })
 }
 
 /// Second derivatives at a point.

@@ -5,6 +5,7 @@
 
 mod multipliers;
 mod newton;
+mod shooting;
 
 pub use multipliers::{multipliers, spectral_radius};
 pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};

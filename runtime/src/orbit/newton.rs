@@ -5,6 +5,7 @@
 //! itself serve as new starts.
 
 use super::multipliers::{multipliers, spectral_radius};
+use super::shooting::{Shot, shoot};
 use crate::model::ModelInfo;
 use crate::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Open, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
@@ -29,13 +30,25 @@ pub struct GaitRequest<'a> {
     pub iteration_limit: usize,
     /// Whether functionals and measures of the gait are wanted.
     pub measures: bool,
+    /// Into how many segments a map is cut: 1 is single shooting, more are multiple shooting ([`super::shooting`]), for models
+    /// without a mass matrix and period 1.
+    pub segments: usize,
 }
 
 impl<'a> GaitRequest<'a> {
     /// Period 1, default accuracy, tolerance 1e-10, 50 iterations, measures.
     pub fn new(parameters: &'a [f64], memory: &'a [f64]) -> Self {
         let accuracy = Accuracy::default();
-        Self { parameters, memory, period: 1, accuracy, tolerance: 1e-10, iteration_limit: 50, measures: true }
+        Self {
+            parameters,
+            memory,
+            period: 1,
+            accuracy,
+            tolerance: 1e-10,
+            iteration_limit: 50,
+            measures: true,
+            segments: 1,
+        }
     }
 }
 
@@ -86,6 +99,8 @@ const OTHER_STEPS: f64 = 1e3;
 const COLLAPSED: f64 = 1e-5;
 /// A point that returns to itself within this part of its size is a gait, whatever its step's length.
 const FIXED: f64 = 1e-6;
+/// How many plans multiple shooting makes before it gives up.
+const PLANS: usize = 5;
 /// How often a Newton step is halved.
 const HALVINGS: usize = 20;
 /// How many iterates of the map serve as further starts.
@@ -102,6 +117,9 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
         return Err(RequestError::ExplicitTime(map.info().name));
     }
     let search = Search { map, request };
+    if request.segments > 1 {
+        return search.multiple(guess);
+    }
     let mut start = guess.to_vec();
     let mut best: Option<Point> = None;
     let mut iterations = 0;
@@ -160,7 +178,11 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&self, z: &[f64], sensitivity: Sensitivity<'_>, measures: bool) -> Result<MapOutcome, RequestError> {
-        self.map.evaluate(&MapRequest {
+        self.map.evaluate(&self.map_request(z, sensitivity, measures))
+    }
+
+    fn map_request<'z>(&'z self, z: &'z [f64], sensitivity: Sensitivity<'z>, measures: bool) -> MapRequest<'z> {
+        MapRequest {
             coordinates: z,
             parameters: self.request.parameters,
             memory: self.request.memory,
@@ -168,7 +190,7 @@ impl Search<'_> {
             sensitivity,
             measures,
             accuracy: self.request.accuracy,
-        })
+        }
     }
 
     fn evaluate(&self, z: &[f64]) -> Result<Result<Point, Stop>, RequestError> {
@@ -180,6 +202,50 @@ impl Search<'_> {
                 Ok(Point { z, map: *map, residual })
             }
         })
+    }
+
+    /// Multiple shooting. A plan that no longer holds is made anew where the search stands.
+    fn multiple(&self, guess: &[f64]) -> Result<GaitOutcome, RequestError> {
+        let (mut z, mut iterations) = (guess.to_vec(), 0);
+        let mut best: Option<Shot> = None;
+        for _ in 0..PLANS {
+            let (outcome, plan) = self.map.plan(&self.map_request(&z, Sensitivity::Coordinates, false))?;
+            if let (MapOutcome::Stopped(stop), None) = (outcome, &best) {
+                return self.finish(None, Some(stop), iterations);
+            }
+            let Some(plan) = plan.filter(|_| self.request.period == 1) else {
+                break;
+            };
+            let pieces = plan.pieces(self.request.segments);
+            let limits = (self.request.tolerance, self.request.iteration_limit);
+            let Some(shot) = shoot(self.map, self.request.parameters, &pieces, &z, limits)? else {
+                break;
+            };
+            iterations += shot.iterations;
+            z = shot.z.as_slice().to_vec();
+            let done = shot.residual <= self.request.tolerance;
+            best = Some(shot);
+            if done {
+                break;
+            }
+        }
+        let Some(shot) = best else {
+            return Err(RequestError::NoPlan(self.map.info().name));
+        };
+        let point = self.evaluate(shot.z.as_slice())?;
+        let mut outcome = match point {
+            Ok(mut point) => {
+                point.residual = point.residual.max(shot.residual);
+                self.finish(Some(point), None, iterations)?
+            }
+            Err(stop) => return self.finish(None, Some(stop), iterations),
+        };
+        if let Some(gait) = &mut outcome.gait {
+            gait.multipliers = multipliers(&shot.jacobian);
+            gait.spectral_radius = spectral_radius(&gait.multipliers);
+            gait.map.jacobian = shot.jacobian;
+        }
+        Ok(outcome)
     }
 
     /// Newton with line search as long as the residual falls.

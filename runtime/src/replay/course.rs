@@ -73,18 +73,25 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
             self.embed(&coordinates);
             self.tau = S::constant(0.0);
             self.leave(turn);
-            for (i, leg) in turn.iter().enumerate() {
-                self.begin(leg);
-                self.steps(leg, 0, usize::MAX);
-                self.land(leg, turn.get(i + 1));
-            }
+            self.go(turn);
             coordinates = self.project();
         }
         coordinates
     }
 
+    /// Goes through legs, one after the other.
+    pub(crate) fn go(&mut self, legs: &[Leg]) {
+        for (i, leg) in legs.iter().enumerate() {
+            self.begin(leg);
+            self.steps(leg);
+            if !leg.end.surfaces.is_empty() {
+                self.land(leg, legs.get(i + 1));
+            }
+        }
+    }
+
     /// State on the section and its variations.
-    fn embed(&mut self, coordinates: &Moving<S, N, C>) {
+    pub(crate) fn embed(&mut self, coordinates: &Moving<S, N, C>) {
         let z = coordinates.x.get(..M::INFO.coordinates.len()).unwrap_or(&[]);
         self.at.x = M::embed(z, self.segment.p);
         if C == 0 {
@@ -104,7 +111,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     }
 
     /// Makes the transition that follows a section which stands before one.
-    fn leave(&mut self, turn: &[Leg]) {
+    pub(crate) fn leave(&mut self, turn: &[Leg]) {
         let (Section::Before(i), Some(leg)) = (self.section, turn.first()) else {
             return;
         };
@@ -122,7 +129,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     }
 
     /// Starts a leg where the replay is.
-    pub(crate) fn begin(&mut self, leg: &Leg) {
+    fn begin(&mut self, leg: &Leg) {
         self.segment.mode = leg.mode;
         self.segment.set_memory(&leg.memory);
         self.segment.set_branch(&leg.branch);
@@ -131,11 +138,12 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         self.read_start(leg);
     }
 
-    /// Takes the steps of a leg from number `first` to before `last`, but for the one in which the leg ends.
-    pub(crate) fn steps(&mut self, leg: &Leg, first: usize, last: usize) {
-        let count = leg.sizes.len().saturating_sub(1).min(last);
-        for step in first..count {
-            let h = leg.sizes.get(step).map_or(self.scale, |size| self.scale.times(*size));
+    /// Takes the steps of a leg, but for the one that ends at an event.
+    fn steps(&mut self, leg: &Leg) {
+        let to_event = usize::from(!leg.end.surfaces.is_empty());
+        let sizes = leg.sizes.get(..leg.sizes.len().saturating_sub(to_event)).unwrap_or(&[]);
+        for (step, size) in sizes.iter().enumerate() {
+            let h = self.scale.times(*size);
             let (end, rates) = self.step(h);
             if S::ORDER == 0 {
                 let tolerance =
@@ -159,7 +167,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     }
 
     /// Applies the symmetry to the state on the section and takes its coordinates.
-    fn project(&self) -> Moving<S, N, C> {
+    pub(crate) fn project(&self) -> Moving<S, N, C> {
         let mut state = if matches!(self.section, Section::Before(_)) { self.on_section } else { self.at };
         if M::INFO.symmetric {
             if C > 0 {

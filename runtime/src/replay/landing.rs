@@ -52,8 +52,9 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     /// By how much the steps of a leg are longer than the plan's: where parameters alone decide when the leg ends, so that its
     /// mesh always fits.
     pub(crate) fn scale(&self, leg: &Leg) -> S {
-        let (one, Some(&surface)) = (S::constant(1.0), leg.end.surfaces.first()) else {
-            return S::constant(1.0);
+        let one = S::constant(1.0);
+        let Some(&surface) = leg.end.surfaces.first() else {
+            return one;
         };
         if !leg.end.clock_only || leg.length() <= 0.0 {
             return one;

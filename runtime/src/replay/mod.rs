@@ -11,6 +11,7 @@ mod course;
 mod landing;
 mod moving;
 mod number;
+mod pieces;
 mod plan;
 mod points;
 mod record;
@@ -19,6 +20,8 @@ mod segment;
 mod watching;
 
 pub(crate) use batch::side_by_side;
+pub(crate) use pieces::run_piece;
+pub use pieces::{Piece, PieceEnd};
 pub use plan::Plan;
 pub use points::{Images, Points, SecondOrder};
 pub(crate) use record::Record;

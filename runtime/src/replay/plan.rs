@@ -24,6 +24,8 @@ pub struct Plan {
 pub(crate) struct Leg {
     /// Index of the mode.
     pub(crate) mode: usize,
+    /// Clock at its start (s); not 0 for a part of a leg (`pieces`). Where a leg follows a switch the clock runs on.
+    pub(crate) tau: f64,
     /// Memory.
     pub(crate) memory: Vec<f64>,
     /// Branch selectors.
@@ -43,7 +45,7 @@ pub(crate) struct Leg {
 pub(crate) struct Sides {
     /// Which.
     pub(crate) surface: Surface,
-    /// Its side at the start, and at the end of each step.
+    /// Its side at the start, and at the end of each step; unknown where that is not looked at.
     pub(crate) at: Vec<Side>,
     /// Whether its function depends on time and parameters only.
     pub(crate) clock_only: bool,
@@ -53,6 +55,7 @@ pub(crate) struct Sides {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct End {
     /// The surfaces that are passed at the same instant; the first decides when. A transition stands alone among its like.
+    /// Empty where a piece of a plan ends between events.
     pub(crate) surfaces: Vec<Surface>,
     /// Whether the time of the first follows from the parameters alone.
     pub(crate) clock_only: bool,

@@ -20,11 +20,12 @@ impl Record {
     }
 
     /// A leg begins, in this mode with this memory and these selectors.
-    pub(crate) fn leg(&mut self, mode: usize, memory: &[f64], branch: &[bool], watched: &[Watched]) {
+    pub(crate) fn leg(&mut self, mode: usize, tau: f64, memory: &[f64], branch: &[bool], watched: &[Watched]) {
         let sides = |w: &Watched| Sides { surface: w.surface, at: vec![w.side], clock_only: w.start.clock_only };
         let end = End { surfaces: Vec::new(), clock_only: false, fastest: 0.0 };
         let leg = Leg {
             mode,
+            tau,
             memory: memory.to_vec(),
             branch: branch.to_vec(),
             sizes: Vec::new(),

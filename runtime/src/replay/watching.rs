@@ -6,7 +6,7 @@
 use super::course::Course;
 use super::number::Number;
 use super::plan::{Leg, Sides};
-use crate::event::Surface;
+use crate::event::{Side, Surface};
 use crate::hybrid::PLACES;
 use crate::model::Model;
 use crate::sensitivity::dot;
@@ -44,6 +44,9 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             let end = self.read(sides);
             if let Some(slot) = self.readings.get_mut(i) {
                 *slot = end;
+            }
+            if to == Side::Unknown {
+                continue;
             }
             let sign = to.sign();
             self.valid = S::and(self.valid, S::constant(0.0).less(end.0.times(sign)));
