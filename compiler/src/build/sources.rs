@@ -24,6 +24,7 @@ const SOURCES: &[(&str, &str)] = sources![
     "casadi/derive.py",
     "casadi/exchange.rs",
     "casadi/functions.rs",
+    "casadi/fuse.rs",
     "casadi/program.rs",
     "casadi/tape.rs",
     "valid/facts.rs",

@@ -8,6 +8,7 @@
 pub mod environment;
 pub mod exchange;
 pub mod functions;
+mod fuse;
 pub mod program;
 pub mod run;
 pub mod tape;

@@ -54,6 +54,17 @@ pub enum Logic {
     Or,
 }
 
+/// A product and a term, rounded once where the processor can do that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fused {
+    /// a*b + c
+    MulAdd,
+    /// a*b - c
+    MulSub,
+    /// c - a*b
+    NegMulAdd,
+}
+
 /// How a value comes about. Operands have smaller indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operation {
@@ -67,6 +78,8 @@ pub enum Operation {
     Unary(Unary, Value),
     /// Number from two numbers.
     Binary(Binary, Value, Value),
+    /// Number from the two factors and the term.
+    Fused(Fused, Value, Value, Value),
     /// Truth value from two numbers or two truth values.
     Logic(Logic, Value, Value),
     /// The opposite truth value.
@@ -87,7 +100,7 @@ impl Operation {
             Self::Constant(_) | Self::Input(_) | Self::Truth(_) => [None; 3],
             Self::Unary(_, a) | Self::Not(a) => [Some(a), None, None],
             Self::Binary(_, a, b) | Self::Logic(_, a, b) => [Some(a), Some(b), None],
-            Self::Select(a, b, c) => [Some(a), Some(b), Some(c)],
+            Self::Fused(_, a, b, c) | Self::Select(a, b, c) => [Some(a), Some(b), Some(c)],
         };
         [a, b, c].into_iter().flatten()
     }
@@ -127,9 +140,11 @@ pub struct Counts {
     pub additions: usize,
     /// Multiplications.
     pub multiplications: usize,
+    /// Products with a term, as one operation.
+    pub fused: usize,
     /// Divisions.
     pub divisions: usize,
-    /// Sines, powers and other functions.
+    /// Sines, powers and other functions; sine and cosine of the same angle count once.
     pub functions: usize,
     /// Selections between two values.
     pub selections: usize,
@@ -185,16 +200,32 @@ impl Program {
         }
     }
 
+    /// The sine of each cosine, and the cosine of each sine, where the program has both.
+    pub fn pairs(&self) -> HashMap<Value, Value> {
+        let of = |wanted: Unary| {
+            self.operations.iter().enumerate().filter_map(move |(value, &operation)| match operation {
+                Operation::Unary(op, angle) if op == wanted => Some((angle, value)),
+                _ => None,
+            })
+        };
+        let cosines: HashMap<Value, Value> = of(Unary::Cos).collect();
+        let both = of(Unary::Sin).filter_map(|(angle, sine)| Some((sine, *cosines.get(&angle)?)));
+        both.flat_map(|(sine, cosine)| [(sine, cosine), (cosine, sine)]).collect()
+    }
+
     /// Operation counts.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
-        for operation in &self.operations {
+        let pairs = self.pairs();
+        for (value, operation) in self.operations.iter().enumerate() {
             match operation {
+                Operation::Unary(Unary::Cos, _) if pairs.contains_key(&value) => {}
                 Operation::Binary(Binary::Add | Binary::Sub, ..) | Operation::Unary(Unary::Neg, _) => {
                     counts.additions += 1;
                 }
                 Operation::Binary(Binary::Mul, ..) => counts.multiplications += 1,
                 Operation::Binary(Binary::Div, ..) => counts.divisions += 1,
+                Operation::Fused(..) => counts.fused += 1,
                 Operation::Binary(..) | Operation::Unary(..) => counts.functions += 1,
                 Operation::Select(..) => counts.selections += 1,
                 _ => {}
@@ -210,6 +241,7 @@ fn renumber(operation: Operation, number: &[usize]) -> Operation {
         Operation::Constant(_) | Operation::Input(_) | Operation::Truth(_) => operation,
         Operation::Unary(op, a) => Operation::Unary(op, new(a)),
         Operation::Binary(op, a, b) => Operation::Binary(op, new(a), new(b)),
+        Operation::Fused(op, a, b, c) => Operation::Fused(op, new(a), new(b), new(c)),
         Operation::Logic(op, a, b) => Operation::Logic(op, new(a), new(b)),
         Operation::Not(a) => Operation::Not(new(a)),
         Operation::Select(a, b, c) => Operation::Select(new(a), new(b), new(c)),

@@ -426,7 +426,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
 
 /// Residual F = M k - f of mode `run`, k the rates of the states.
 ///
-/// 5 additions, 9 multiplications, 2 function calls.
+/// 1 addition, 5 multiplications, 4 fused multiply-adds, 1 function call.
 fn residual_run<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -438,22 +438,17 @@ fn residual_run<S: scalar::Scalar>(
     let &[_, x_w, x_phi] = x;
     let &[k_v, k_w, k_phi] = k;
     let v0 = p_m * k_v;
-    let v1 = x_phi.cos();
-    let v2 = p_l * v1;
-    let v3 = v2 * k_w;
-    let v4 = v0 + v3;
+    let (v2, v1) = x_phi.sin_cos();
+    let v3 = p_l * v1;
+    let v4 = v3.mul_add(k_w, v0);
     let v5 = x_w * x_w;
     let v6 = p_l * v5;
-    let v7 = x_phi.sin();
-    let v8 = v6 * v7;
-    let v9 = v4 - v8;
-    let v10 = v1 * k_v;
-    let v11 = p_l * k_w;
-    let v12 = v10 + v11;
-    let v13 = p_g * v1;
-    let v14 = v12 + v13;
-    let v15 = k_phi - x_w;
-    [v9, v14, v15]
+    let v7 = (-v6).mul_add(v2, v4);
+    let v8 = v1 * k_v;
+    let v9 = p_l.mul_add(k_w, v8);
+    let v10 = p_g.mul_add(v1, v9);
+    let v11 = k_phi - x_w;
+    [v7, v10, v11]
 }
 
 /// Guard of transition `turn`.
@@ -508,7 +503,7 @@ fn measures<S: scalar::Scalar>(functionals: &[S], _p: &[S; PARAMETERS]) -> [S; 4
 
 /// Residual F = M k - f of mode `run` with all first derivatives, by columns.
 ///
-/// 12 additions, 18 multiplications, 2 function calls.
+/// 6 additions, 12 multiplications, 6 fused multiply-adds, 1 function call.
 fn d_residual_run<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -520,52 +515,45 @@ fn d_residual_run<S: scalar::Scalar>(
     let &[_, x_w, x_phi] = x;
     let &[k_v, k_w, k_phi] = k;
     let v0 = p_m * k_v;
-    let v1 = x_phi.cos();
-    let v2 = p_l * v1;
-    let v3 = v2 * k_w;
-    let v4 = v0 + v3;
+    let (v2, v1) = x_phi.sin_cos();
+    let v3 = p_l * v1;
+    let v4 = v3.mul_add(k_w, v0);
     let v5 = x_w * x_w;
     let v6 = p_l * v5;
-    let v7 = x_phi.sin();
-    let v8 = v6 * v7;
-    let v9 = v4 - v8;
-    let v10 = v1 * k_v;
-    let v11 = p_l * k_w;
-    let v12 = v10 + v11;
-    let v13 = p_g * v1;
-    let v14 = v12 + v13;
-    let v15 = k_phi - x_w;
-    let v16 = x_w + x_w;
-    let v17 = p_l * v16;
-    let v18 = v7 * v17;
+    let v7 = (-v6).mul_add(v2, v4);
+    let v8 = v1 * k_v;
+    let v9 = p_l.mul_add(k_w, v8);
+    let v10 = p_g.mul_add(v1, v9);
+    let v11 = k_phi - x_w;
+    let v12 = x_w + x_w;
+    let v13 = p_l * v12;
+    let v14 = v2 * v13;
+    let v15 = -v14;
+    let v16 = p_l * v2;
+    let v17 = k_w * v16;
+    let v18 = v6.mul_add(v1, v17);
     let v19 = -v18;
-    let v20 = p_l * v7;
-    let v21 = k_w * v20;
-    let v22 = v6 * v1;
-    let v23 = v21 + v22;
-    let v24 = -v23;
-    let v25 = k_v * v7;
-    let v26 = p_g * v7;
-    let v27 = v25 + v26;
-    let v28 = -v27;
-    let v29 = k_w * v1;
-    let v30 = v7 * v5;
-    let v31 = v29 - v30;
+    let v20 = k_v * v2;
+    let v21 = p_g.mul_add(v2, v20);
+    let v22 = -v21;
+    let v23 = k_w * v1;
+    let v24 = v2 * v5;
+    let v25 = v23 - v24;
     model::ResidualJacobian {
-        value: [v9, v14, v15],
+        value: [v7, v10, v11],
         dx: [
             [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [v19, S::constant(0.0), S::constant(-1.0)],
-            [v24, v28, S::constant(0.0)],
+            [v15, S::constant(0.0), S::constant(-1.0)],
+            [v19, v22, S::constant(0.0)],
         ],
         dk: [
             [p_m, v1, S::constant(0.0)],
-            [v2, p_l, S::constant(0.0)],
+            [v3, p_l, S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(1.0)],
         ],
         dp: [
             [k_v, S::constant(0.0), S::constant(0.0)],
-            [v31, k_w, S::constant(0.0)],
+            [v25, k_w, S::constant(0.0)],
             [S::constant(0.0), v1, S::constant(0.0)],
         ],
         dtau: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
@@ -575,7 +563,7 @@ fn d_residual_run<S: scalar::Scalar>(
 
 /// Residual F = M k - f of mode `run` with its derivatives by state and rate, by columns.
 ///
-/// 11 additions, 16 multiplications, 2 function calls.
+/// 5 additions, 10 multiplications, 6 fused multiply-adds, 1 function call.
 fn linearised_run<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -587,44 +575,37 @@ fn linearised_run<S: scalar::Scalar>(
     let &[_, x_w, x_phi] = x;
     let &[k_v, k_w, k_phi] = k;
     let v0 = p_m * k_v;
-    let v1 = x_phi.cos();
-    let v2 = p_l * v1;
-    let v3 = v2 * k_w;
-    let v4 = v0 + v3;
+    let (v2, v1) = x_phi.sin_cos();
+    let v3 = p_l * v1;
+    let v4 = v3.mul_add(k_w, v0);
     let v5 = x_w * x_w;
     let v6 = p_l * v5;
-    let v7 = x_phi.sin();
-    let v8 = v6 * v7;
-    let v9 = v4 - v8;
-    let v10 = v1 * k_v;
-    let v11 = p_l * k_w;
-    let v12 = v10 + v11;
-    let v13 = p_g * v1;
-    let v14 = v12 + v13;
-    let v15 = k_phi - x_w;
-    let v16 = x_w + x_w;
-    let v17 = p_l * v16;
-    let v18 = v7 * v17;
+    let v7 = (-v6).mul_add(v2, v4);
+    let v8 = v1 * k_v;
+    let v9 = p_l.mul_add(k_w, v8);
+    let v10 = p_g.mul_add(v1, v9);
+    let v11 = k_phi - x_w;
+    let v12 = x_w + x_w;
+    let v13 = p_l * v12;
+    let v14 = v2 * v13;
+    let v15 = -v14;
+    let v16 = p_l * v2;
+    let v17 = k_w * v16;
+    let v18 = v6.mul_add(v1, v17);
     let v19 = -v18;
-    let v20 = p_l * v7;
-    let v21 = k_w * v20;
-    let v22 = v6 * v1;
-    let v23 = v21 + v22;
-    let v24 = -v23;
-    let v25 = k_v * v7;
-    let v26 = p_g * v7;
-    let v27 = v25 + v26;
-    let v28 = -v27;
+    let v20 = k_v * v2;
+    let v21 = p_g.mul_add(v2, v20);
+    let v22 = -v21;
     model::Linearised {
-        value: [v9, v14, v15],
+        value: [v7, v10, v11],
         dx: [
             [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [v19, S::constant(0.0), S::constant(-1.0)],
-            [v24, v28, S::constant(0.0)],
+            [v15, S::constant(0.0), S::constant(-1.0)],
+            [v19, v22, S::constant(0.0)],
         ],
         dk: [
             [p_m, v1, S::constant(0.0)],
-            [v2, p_l, S::constant(0.0)],
+            [v3, p_l, S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(1.0)],
         ],
     }
@@ -772,7 +753,7 @@ fn d_measures<S: scalar::Scalar>(
 
 /// The integrands.
 ///
-/// 2 additions, 5 multiplications, 2 function calls.
+/// 1 addition, 4 multiplications, 1 fused multiply-add, 2 function calls.
 fn integrands<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -788,13 +769,12 @@ fn integrands<S: scalar::Scalar>(
     let v0 = tau * k_v;
     let v1 = x_phi.cos();
     let v2 = p_l * v1;
-    let v3 = v2 * k_phi;
-    let v4 = v0 + v3;
-    let v5 = v4 + x_v;
-    let v6 = S::constant(3.0) * t;
-    let v7 = v6.cos();
-    let v8 = v5 * v7;
-    [v8, k_v]
+    let v3 = v2.mul_add(k_phi, v0);
+    let v4 = v3 + x_v;
+    let v5 = S::constant(3.0) * t;
+    let v6 = v5.cos();
+    let v7 = v4 * v6;
+    [v7, k_v]
 }
 
 /// Observable 0.
@@ -873,7 +853,7 @@ fn d_observable_1<S: scalar::Scalar>(
 
 /// Observable 2.
 ///
-/// 1 addition, 3 multiplications, 1 division, 1 function call.
+/// 2 multiplications, 1 fused multiply-add, 1 division, 1 function call.
 fn observable_2<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -885,18 +865,17 @@ fn observable_2<S: scalar::Scalar>(
     let tau = env.tau;
     let &[_, _, x_phi] = x;
     let &[_, k_w, k_phi] = k;
-    let v0 = k_w * tau;
-    let v1 = x_phi.sin();
-    let v2 = p_l * v1;
-    let v3 = k_phi * v2;
-    let v4 = v3 / p_l;
-    let v5 = v0 - v4;
-    v5
+    let v0 = x_phi.sin();
+    let v1 = p_l * v0;
+    let v2 = k_phi * v1;
+    let v3 = v2 / p_l;
+    let v4 = k_w.mul_add(tau, -v3);
+    v4
 }
 
 /// Observable 2 with all first derivatives.
 ///
-/// 5 additions, 6 multiplications, 4 divisions, 2 function calls.
+/// 4 additions, 5 multiplications, 1 fused multiply-add, 4 divisions, 1 function call.
 fn d_observable_2<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -908,28 +887,26 @@ fn d_observable_2<S: scalar::Scalar>(
     let tau = env.tau;
     let &[_, _, x_phi] = x;
     let &[_, k_w, k_phi] = k;
-    let v0 = k_w * tau;
-    let v1 = x_phi.sin();
-    let v2 = p_l * v1;
+    let (v0, v1) = x_phi.sin_cos();
+    let v2 = p_l * v0;
     let v3 = k_phi * v2;
     let v4 = v3 / p_l;
-    let v5 = v0 - v4;
-    let v6 = x_phi.cos();
-    let v7 = p_l * v6;
-    let v8 = k_phi * v7;
-    let v9 = v8 / p_l;
-    let v10 = -v9;
-    let v11 = -v1;
-    let v12 = k_phi * v1;
-    let v13 = v12 / p_l;
-    let v14 = v4 / p_l;
-    let v15 = v13 - v14;
-    let v16 = -v15;
+    let v5 = k_w.mul_add(tau, -v4);
+    let v6 = p_l * v1;
+    let v7 = k_phi * v6;
+    let v8 = v7 / p_l;
+    let v9 = -v8;
+    let v10 = -v0;
+    let v11 = k_phi * v0;
+    let v12 = v11 / p_l;
+    let v13 = v4 / p_l;
+    let v14 = v12 - v13;
+    let v15 = -v14;
     model::RateGradient {
         value: v5,
-        dx: [S::constant(0.0), S::constant(0.0), v10],
-        dk: [S::constant(0.0), tau, v11],
-        dp: [S::constant(0.0), v16, S::constant(0.0)],
+        dx: [S::constant(0.0), S::constant(0.0), v9],
+        dk: [S::constant(0.0), tau, v10],
+        dp: [S::constant(0.0), v15, S::constant(0.0)],
         dtau: k_w,
         dt: S::constant(0.0),
     }
@@ -954,7 +931,7 @@ fn observable_3<S: scalar::Scalar>(
 
 /// Observable 3 with all first derivatives.
 ///
-/// 2 multiplications, 2 function calls.
+/// 2 multiplications, 1 function call.
 fn d_observable_3<S: scalar::Scalar>(
     x: &[S; STATES],
     _k: &[S; STATES],
@@ -964,12 +941,11 @@ fn d_observable_3<S: scalar::Scalar>(
     let &[] = env.branch else { return nan_rate_gradient() };
     let &[_, p_l, _] = env.p;
     let &[_, _, x_phi] = x;
-    let v0 = x_phi.sin();
-    let v1 = p_l * v0;
-    let v2 = x_phi.cos();
-    let v3 = p_l * v2;
+    let (v0, v1) = x_phi.sin_cos();
+    let v2 = p_l * v0;
+    let v3 = p_l * v1;
     model::RateGradient {
-        value: v1,
+        value: v2,
         dx: [S::constant(0.0), S::constant(0.0), v3],
         dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [S::constant(0.0), v0, S::constant(0.0)],
@@ -999,7 +975,7 @@ fn observable_4<S: scalar::Scalar>(
 
 /// Observable 4 with all first derivatives.
 ///
-/// 1 addition, 5 multiplications, 2 function calls.
+/// 1 addition, 5 multiplications, 1 function call.
 fn d_observable_4<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -1010,18 +986,17 @@ fn d_observable_4<S: scalar::Scalar>(
     let &[_, p_l, _] = env.p;
     let &[_, _, x_phi] = x;
     let &[_, _, k_phi] = k;
-    let v0 = x_phi.cos();
-    let v1 = p_l * v0;
-    let v2 = v1 * k_phi;
-    let v3 = x_phi.sin();
-    let v4 = p_l * v3;
+    let (v1, v0) = x_phi.sin_cos();
+    let v2 = p_l * v0;
+    let v3 = v2 * k_phi;
+    let v4 = p_l * v1;
     let v5 = k_phi * v4;
     let v6 = -v5;
     let v7 = k_phi * v0;
     model::RateGradient {
-        value: v2,
+        value: v3,
         dx: [S::constant(0.0), S::constant(0.0), v6],
-        dk: [S::constant(0.0), S::constant(0.0), v1],
+        dk: [S::constant(0.0), S::constant(0.0), v2],
         dp: [S::constant(0.0), v7, S::constant(0.0)],
         dtau: S::constant(0.0),
         dt: S::constant(0.0),
@@ -1046,7 +1021,7 @@ fn observable_5<S: scalar::Scalar>(
 
 /// Observable 5 with all first derivatives.
 ///
-/// 2 additions, 2 function calls.
+/// 2 additions, 1 function call.
 fn d_observable_5<S: scalar::Scalar>(
     x: &[S; STATES],
     _k: &[S; STATES],
@@ -1055,12 +1030,11 @@ fn d_observable_5<S: scalar::Scalar>(
     let &[] = env.memory else { return nan_rate_gradient() };
     let &[] = env.branch else { return nan_rate_gradient() };
     let &[_, _, x_phi] = x;
-    let v0 = x_phi.cos();
-    let v1 = S::constant(1.0) + v0;
-    let v2 = x_phi.sin();
-    let v3 = -v2;
+    let (v1, v0) = x_phi.sin_cos();
+    let v2 = S::constant(1.0) + v0;
+    let v3 = -v1;
     model::RateGradient {
-        value: v1,
+        value: v2,
         dx: [S::constant(0.0), S::constant(0.0), v3],
         dk: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         dp: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
@@ -1089,7 +1063,7 @@ fn observable_6<S: scalar::Scalar>(
 
 /// Observable 6 with all first derivatives.
 ///
-/// 3 additions, 2 multiplications, 2 function calls.
+/// 3 additions, 2 multiplications, 1 function call.
 fn d_observable_6<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -1099,15 +1073,14 @@ fn d_observable_6<S: scalar::Scalar>(
     let &[] = env.branch else { return nan_rate_gradient() };
     let &[_, _, x_phi] = x;
     let &[_, _, k_phi] = k;
-    let v0 = x_phi.sin();
-    let v1 = v0 * k_phi;
-    let v2 = -v1;
-    let v3 = x_phi.cos();
-    let v4 = k_phi * v3;
+    let (v0, v1) = x_phi.sin_cos();
+    let v2 = v0 * k_phi;
+    let v3 = -v2;
+    let v4 = k_phi * v1;
     let v5 = -v4;
     let v6 = -v0;
     model::RateGradient {
-        value: v2,
+        value: v3,
         dx: [S::constant(0.0), S::constant(0.0), v5],
         dk: [S::constant(0.0), S::constant(0.0), v6],
         dp: [S::constant(0.0), S::constant(0.0), S::constant(0.0)],
@@ -1118,7 +1091,7 @@ fn d_observable_6<S: scalar::Scalar>(
 
 /// The integrands and their derivatives along each direction.
 ///
-/// Once: 4 additions, 14 multiplications, 4 function calls. A column, at most: 5 additions, 7 multiplications.
+/// Once: 3 additions, 13 multiplications, 1 fused multiply-add, 2 function calls. A column: 1 multiplication, 5 fused multiply-adds.
 #[inline]
 fn tangent_integrands<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1134,27 +1107,24 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
     let &[x_v, _, x_phi] = x;
     let &[k_v, _, k_phi] = k;
     let v0 = tau * k_v;
-    let v1 = x_phi.cos();
-    let v2 = p_l * v1;
-    let v3 = v2 * k_phi;
-    let v4 = v0 + v3;
+    let (v2, v1) = x_phi.sin_cos();
+    let v3 = p_l * v1;
+    let v4 = v3.mul_add(k_phi, v0);
     let v5 = v4 + x_v;
     let v6 = S::constant(3.0) * t;
-    let v7 = v6.cos();
-    let v8 = v5 * v7;
-    let v9 = x_phi.sin();
-    let v10 = p_l * v9;
+    let (v8, v7) = v6.sin_cos();
+    let v9 = v5 * v7;
+    let v10 = p_l * v2;
     let v11 = k_phi * v10;
     let v12 = v7 * v11;
     let v13 = -v12;
     let v14 = v7 * tau;
-    let v15 = v7 * v2;
+    let v15 = v7 * v3;
     let v16 = k_phi * v1;
     let v17 = v7 * v16;
-    let v18 = v6.sin();
-    let v19 = S::constant(3.0) * v18;
-    let v20 = v5 * v19;
-    let v21 = -v20;
+    let v18 = S::constant(3.0) * v8;
+    let v19 = v5 * v18;
+    let v20 = -v19;
     let mut products = [[S::constant(0.0); INTEGRALS]; C];
     let directions = along.dx.iter().zip(along.dk).zip(along.dp).zip(along.dt);
     for (product, (((&[dx_v, _, dx_phi], &[dk_v, _, dk_phi]), &[_, dp_l, _]), &dt)) in products
@@ -1162,11 +1132,23 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
         .zip(directions)
     {
         *product = [
-            v7 * dx_v + v13 * dx_phi + v14 * dk_v + v15 * dk_phi + v17 * dp_l + v21 * dt,
+            v20
+                .mul_add(
+                    dt,
+                    v17
+                        .mul_add(
+                            dp_l,
+                            v15
+                                .mul_add(
+                                    dk_phi,
+                                    v14.mul_add(dk_v, v13.mul_add(dx_phi, v7 * dx_v)),
+                                ),
+                        ),
+                ),
             dk_v,
         ];
     }
-    ([v8, k_v], products)
+    ([v9, k_v], products)
 }
 
 /// NaN.

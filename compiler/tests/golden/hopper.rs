@@ -551,7 +551,7 @@ fn integrated_stance<S: scalar::Scalar>(
 
 /// Residual F = M k - f of mode `stance`, k the rates of the states.
 ///
-/// 2 additions, 2 multiplications.
+/// 1 addition, 1 multiplication, 1 fused multiply-add.
 fn residual_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -564,9 +564,8 @@ fn residual_stance<S: scalar::Scalar>(
     let &[k_y, k_v, k_q, k_u] = k;
     let v0 = k_q - x_u;
     let v1 = p_omega * p_omega;
-    let v2 = v1 * x_q;
-    let v3 = k_u + v2;
-    [k_y, k_v, v0, v3]
+    let v2 = v1.mul_add(x_q, k_u);
+    [k_y, k_v, v0, v2]
 }
 
 /// Switching function 0, not negative where `n > 0`.
@@ -889,7 +888,7 @@ fn d_flow_stance<S: scalar::Scalar>(
 
 /// Residual F = M k - f of mode `stance` with all first derivatives, by columns.
 ///
-/// 3 additions, 3 multiplications.
+/// 2 additions, 2 multiplications, 1 fused multiply-add.
 fn d_residual_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -902,12 +901,11 @@ fn d_residual_stance<S: scalar::Scalar>(
     let &[k_y, k_v, k_q, k_u] = k;
     let v0 = k_q - x_u;
     let v1 = p_omega * p_omega;
-    let v2 = v1 * x_q;
-    let v3 = k_u + v2;
-    let v4 = p_omega + p_omega;
-    let v5 = x_q * v4;
+    let v2 = v1.mul_add(x_q, k_u);
+    let v3 = p_omega + p_omega;
+    let v4 = x_q * v3;
     model::ResidualJacobian {
-        value: [k_y, k_v, v0, v3],
+        value: [k_y, k_v, v0, v2],
         dx: [
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
@@ -922,7 +920,7 @@ fn d_residual_stance<S: scalar::Scalar>(
         ],
         dp: [
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), S::constant(0.0), S::constant(0.0), v5],
+            [S::constant(0.0), S::constant(0.0), S::constant(0.0), v4],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
         ],
@@ -933,7 +931,7 @@ fn d_residual_stance<S: scalar::Scalar>(
 
 /// Residual F = M k - f of mode `stance` with its derivatives by state and rate, by columns.
 ///
-/// 2 additions, 2 multiplications.
+/// 1 addition, 1 multiplication, 1 fused multiply-add.
 fn linearised_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -946,10 +944,9 @@ fn linearised_stance<S: scalar::Scalar>(
     let &[k_y, k_v, k_q, k_u] = k;
     let v0 = k_q - x_u;
     let v1 = p_omega * p_omega;
-    let v2 = v1 * x_q;
-    let v3 = k_u + v2;
+    let v2 = v1.mul_add(x_q, k_u);
     model::Linearised {
-        value: [k_y, k_v, v0, v3],
+        value: [k_y, k_v, v0, v2],
         dx: [
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0), S::constant(0.0), S::constant(0.0)],
@@ -1312,7 +1309,7 @@ fn d_observable_1<S: scalar::Scalar>(
 
 /// State derivative f of mode `flight` and, for each column v, (df/dx) v.
 ///
-/// Once: 1 addition. A column, at most: 1 multiplication.
+/// Once: 1 addition. A column: No operations.
 #[inline]
 fn tangent_flow_flight<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1335,7 +1332,7 @@ fn tangent_flow_flight<S: scalar::Scalar, const C: usize>(
 /// State derivative f and integrands of mode `flight` and, for each column (v, w),
 /// (d./dx) v + (d./dp) w.
 ///
-/// Once: 4 additions, 4 selections. A column, at most: 1 addition, 4 multiplications.
+/// Once: 4 additions, 4 selections. A column: 1 addition, 1 multiplication, 1 fused multiply-add.
 #[inline]
 fn tangent_integrated_flight<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1376,7 +1373,7 @@ fn tangent_integrated_flight<S: scalar::Scalar, const C: usize>(
         let &[_, dx_v, _, dx_u] = dx;
         let &[dp_g, _, _, _] = dp;
         *dflow = [dx_v, -dp_g, S::constant(0.0), S::constant(0.0)];
-        *dintegrands = [v6 * dx_v + v7 * dx_u];
+        *dintegrands = [v7.mul_add(dx_u, v6 * dx_v)];
     }
     model::Integrated {
         flow: [x_v, v0, S::constant(0.0), S::constant(0.0)],
@@ -1388,7 +1385,7 @@ fn tangent_integrated_flight<S: scalar::Scalar, const C: usize>(
 
 /// State derivative f of mode `stance` and, for each column v, (df/dx) v.
 ///
-/// Once: 2 additions, 2 multiplications. A column, at most: 2 multiplications.
+/// Once: 2 additions, 2 multiplications. A column: 1 multiplication.
 #[inline]
 fn tangent_flow_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1414,7 +1411,7 @@ fn tangent_flow_stance<S: scalar::Scalar, const C: usize>(
 /// State derivative f and integrands of mode `stance` and, for each column (v, w),
 /// (d./dx) v + (d./dp) w.
 ///
-/// Once: 7 additions, 3 multiplications, 4 selections. A column, at most: 2 additions, 5 multiplications.
+/// Once: 7 additions, 3 multiplications, 4 selections. A column: 2 multiplications, 2 fused multiply-adds.
 #[inline]
 fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1460,8 +1457,13 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     for ((dflow, dintegrands), (dx, dp)) in results.zip(dx.iter().zip(dp)) {
         let &[_, dx_v, dx_q, dx_u] = dx;
         let &[_, dp_omega, _, _] = dp;
-        *dflow = [S::constant(0.0), S::constant(0.0), dx_u, v9 * dx_q + v13 * dp_omega];
-        *dintegrands = [v8 * dx_v + v10 * dx_u];
+        *dflow = [
+            S::constant(0.0),
+            S::constant(0.0),
+            dx_u,
+            v13.mul_add(dp_omega, v9 * dx_q),
+        ];
+        *dintegrands = [v10.mul_add(dx_u, v8 * dx_v)];
     }
     model::Integrated {
         flow: [S::constant(0.0), S::constant(0.0), x_u, v2],
@@ -1473,7 +1475,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
 
 /// The integrands and their derivatives along each direction.
 ///
-/// Once: 3 additions, 4 selections. A column, at most: 1 addition, 2 multiplications.
+/// Once: 3 additions, 4 selections. A column: 1 multiplication, 1 fused multiply-add.
 #[inline]
 fn tangent_integrands<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1498,7 +1500,7 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
         .iter_mut()
         .zip(directions)
     {
-        *product = [v5 * dx_v + v6 * dx_u];
+        *product = [v6.mul_add(dx_u, v5 * dx_v)];
     }
     ([v4], products)
 }

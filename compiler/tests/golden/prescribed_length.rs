@@ -426,7 +426,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for PrescribedLength {
 /// State derivative f of mode `stance`.
 /// Rates of q_theta [s^-1], p_theta [m s^-2].
 ///
-/// 5 additions, 6 multiplications, 3 divisions, 3 function calls, 2 selections.
+/// 3 additions, 4 multiplications, 2 fused multiply-adds, 3 divisions, 2 function calls, 2 selections.
 fn flow_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -438,29 +438,26 @@ fn flow_stance<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
     let v8 = x_q_theta.sin();
-    let v9 = p_g * v8;
-    let v10 = v1.sin();
-    let v11 = v10 * p_omega;
-    let v12 = v0 * v11;
-    let v13 = v12 * x_p_theta;
-    let v14 = -v13;
-    let v15 = S::select(b0, v14, S::constant(0.0));
-    let v16 = v15 / v6;
-    let v17 = v9 + v16;
-    let v18 = -v17;
-    [v7, v18]
+    let v9 = v3 * p_omega;
+    let v10 = v0 * v9;
+    let v11 = v10 * x_p_theta;
+    let v12 = -v11;
+    let v13 = S::select(b0, v12, S::constant(0.0));
+    let v14 = v13 / v6;
+    let v15 = p_g.mul_add(v8, v14);
+    let v16 = -v15;
+    [v7, v16]
 }
 
 /// State derivative f and integrands of mode `stance`.
 ///
-/// 12 additions, 19 multiplications, 4 divisions, 4 function calls, 8 selections.
+/// 7 additions, 14 multiplications, 5 fused multiply-adds, 4 divisions, 2 function calls, 8 selections.
 fn integrated_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -472,57 +469,50 @@ fn integrated_stance<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
-    let v8 = x_q_theta.sin();
-    let v9 = p_g * v8;
-    let v10 = v1.sin();
-    let v11 = v10 * p_omega;
-    let v12 = v0 * v11;
-    let v13 = v12 * x_p_theta;
-    let v14 = -v13;
-    let v15 = S::select(b0, v14, S::constant(0.0));
-    let v16 = v15 / v6;
-    let v17 = v9 + v16;
-    let v18 = -v17;
-    let v19 = x_p_theta * v8;
-    let v20 = x_q_theta.cos();
-    let v21 = v12 * v20;
-    let v22 = -v21;
-    let v23 = S::select(b0, v22, S::constant(0.0));
-    let v24 = v19 - v23;
-    let v25 = v12 * v8;
+    let (v8, v9) = x_q_theta.sin_cos();
+    let v10 = v3 * p_omega;
+    let v11 = v0 * v10;
+    let v12 = v11 * x_p_theta;
+    let v13 = -v12;
+    let v14 = S::select(b0, v13, S::constant(0.0));
+    let v15 = v14 / v6;
+    let v16 = p_g.mul_add(v8, v15);
+    let v17 = -v16;
+    let v18 = v11 * v9;
+    let v19 = -v18;
+    let v20 = S::select(b0, v19, S::constant(0.0));
+    let v21 = x_p_theta.mul_add(v8, -v20);
+    let v22 = v11 * v8;
+    let v23 = -v22;
+    let v24 = S::select(b0, v23, S::constant(0.0));
+    let v25 = x_p_theta.mul_add(v9, v24);
     let v26 = -v25;
-    let v27 = S::select(b0, v26, S::constant(0.0));
-    let v28 = x_p_theta * v20;
-    let v29 = v27 + v28;
-    let v30 = -v29;
-    let v31 = S::select(b1, v29, v30);
-    let v32 = v2 * p_omega;
-    let v33 = p_omega * v32;
-    let v34 = v0 * v33;
-    let v35 = p_m * v34;
-    let v36 = S::select(b0, v35, S::constant(0.0));
-    let v37 = p_m * p_g;
-    let v38 = v37 * v20;
-    let v39 = v36 + v38;
-    let v40 = x_p_theta * x_p_theta;
-    let v41 = p_m * v40;
-    let v42 = v41 / v6;
-    let v43 = v39 + v42;
-    let v44 = v43 * v12;
-    let v45 = S::select(b0, v44, S::constant(0.0));
-    let v46 = S::select(b3, v45, S::constant(0.0));
-    ([v7, v18], [v24, v31, v46])
+    let v27 = S::select(b1, v25, v26);
+    let v28 = v2 * p_omega;
+    let v29 = p_omega * v28;
+    let v30 = v0 * v29;
+    let v31 = p_m * v30;
+    let v32 = S::select(b0, v31, S::constant(0.0));
+    let v33 = p_m * p_g;
+    let v34 = v33.mul_add(v9, v32);
+    let v35 = x_p_theta * x_p_theta;
+    let v36 = p_m * v35;
+    let v37 = v36 / v6;
+    let v38 = v34 + v37;
+    let v39 = v38 * v11;
+    let v40 = S::select(b0, v39, S::constant(0.0));
+    let v41 = S::select(b3, v40, S::constant(0.0));
+    ([v7, v17], [v21, v27, v41])
 }
 
 /// Residual F = M k - f of mode `stance`, k the rates of the states.
 ///
-/// 6 additions, 6 multiplications, 3 divisions, 3 function calls, 2 selections.
+/// 4 additions, 4 multiplications, 2 fused multiply-adds, 3 divisions, 2 function calls, 2 selections.
 fn residual_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -536,25 +526,22 @@ fn residual_stance<S: scalar::Scalar>(
     let &[k_q_theta, k_p_theta] = k;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
     let v8 = k_q_theta - v7;
     let v9 = x_q_theta.sin();
-    let v10 = p_g * v9;
-    let v11 = v1.sin();
-    let v12 = v11 * p_omega;
-    let v13 = v0 * v12;
-    let v14 = v13 * x_p_theta;
-    let v15 = -v14;
-    let v16 = S::select(b0, v15, S::constant(0.0));
-    let v17 = v16 / v6;
-    let v18 = v10 + v17;
-    let v19 = k_p_theta + v18;
-    [v8, v19]
+    let v10 = v3 * p_omega;
+    let v11 = v0 * v10;
+    let v12 = v11 * x_p_theta;
+    let v13 = -v12;
+    let v14 = S::select(b0, v13, S::constant(0.0));
+    let v15 = v14 / v6;
+    let v16 = p_g.mul_add(v9, v15);
+    let v17 = k_p_theta + v16;
+    [v8, v17]
 }
 
 /// Switching function 0, not negative where `tau <= pi/omega`.
@@ -575,7 +562,7 @@ fn switch_0<S: scalar::Scalar>(
 
 /// Switching function 1, not negative where `abs(v_x)`.
 ///
-/// 2 additions, 5 multiplications, 1 division, 3 function calls, 1 selection.
+/// 1 addition, 4 multiplications, 1 fused multiply-add, 1 division, 2 function calls, 1 selection.
 fn switch_1<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -590,19 +577,17 @@ fn switch_1<S: scalar::Scalar>(
     let v2 = v1.sin();
     let v3 = v2 * p_omega;
     let v4 = v0 * v3;
-    let v5 = x_q_theta.sin();
-    let v6 = v4 * v5;
-    let v7 = -v6;
-    let v8 = S::select(b0, v7, S::constant(0.0));
-    let v9 = x_q_theta.cos();
-    let v10 = x_p_theta * v9;
-    let v11 = v8 + v10;
-    v11
+    let (v5, v6) = x_q_theta.sin_cos();
+    let v7 = v4 * v5;
+    let v8 = -v7;
+    let v9 = S::select(b0, v8, S::constant(0.0));
+    let v10 = x_p_theta.mul_add(v6, v9);
+    v10
 }
 
 /// Switching function 2, not negative where `abs(rho_a)`.
 ///
-/// 4 additions, 10 multiplications, 2 divisions, 2 function calls, 2 selections.
+/// 2 additions, 8 multiplications, 2 fused multiply-adds, 2 divisions, 2 function calls, 2 selections.
 fn switch_2<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -622,22 +607,20 @@ fn switch_2<S: scalar::Scalar>(
     let v7 = S::select(b0, v6, S::constant(0.0));
     let v8 = p_m * p_g;
     let v9 = x_q_theta.cos();
-    let v10 = v8 * v9;
-    let v11 = v7 + v10;
-    let v12 = x_p_theta * x_p_theta;
-    let v13 = p_m * v12;
-    let v14 = S::constant(1.0) + v2;
-    let v15 = v0 * v14;
-    let v16 = p_l_b + v15;
-    let v17 = S::select(b0, v16, p_l_b);
-    let v18 = v13 / v17;
-    let v19 = v11 + v18;
-    v19
+    let v10 = v8.mul_add(v9, v7);
+    let v11 = x_p_theta * x_p_theta;
+    let v12 = p_m * v11;
+    let v13 = S::constant(1.0) + v2;
+    let v14 = v0.mul_add(v13, p_l_b);
+    let v15 = S::select(b0, v14, p_l_b);
+    let v16 = v12 / v15;
+    let v17 = v10 + v16;
+    v17
 }
 
 /// Switching function 3, not negative where `max(power, 0)`.
 ///
-/// 4 additions, 13 multiplications, 2 divisions, 3 function calls, 3 selections.
+/// 2 additions, 11 multiplications, 2 fused multiply-adds, 2 divisions, 2 function calls, 3 selections.
 fn switch_3<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -649,30 +632,27 @@ fn switch_3<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = v2 * p_omega;
-    let v4 = p_omega * v3;
-    let v5 = v0 * v4;
-    let v6 = p_m * v5;
-    let v7 = S::select(b0, v6, S::constant(0.0));
-    let v8 = p_m * p_g;
-    let v9 = x_q_theta.cos();
-    let v10 = v8 * v9;
-    let v11 = v7 + v10;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = v2 * p_omega;
+    let v5 = p_omega * v4;
+    let v6 = v0 * v5;
+    let v7 = p_m * v6;
+    let v8 = S::select(b0, v7, S::constant(0.0));
+    let v9 = p_m * p_g;
+    let v10 = x_q_theta.cos();
+    let v11 = v9.mul_add(v10, v8);
     let v12 = x_p_theta * x_p_theta;
     let v13 = p_m * v12;
     let v14 = S::constant(1.0) + v2;
-    let v15 = v0 * v14;
-    let v16 = p_l_b + v15;
-    let v17 = S::select(b0, v16, p_l_b);
-    let v18 = v13 / v17;
-    let v19 = v11 + v18;
-    let v20 = v1.sin();
-    let v21 = v20 * p_omega;
-    let v22 = v0 * v21;
-    let v23 = v19 * v22;
-    let v24 = S::select(b0, v23, S::constant(0.0));
-    v24
+    let v15 = v0.mul_add(v14, p_l_b);
+    let v16 = S::select(b0, v15, p_l_b);
+    let v17 = v13 / v16;
+    let v18 = v11 + v17;
+    let v19 = v3 * p_omega;
+    let v20 = v0 * v19;
+    let v21 = v18 * v20;
+    let v22 = S::select(b0, v21, S::constant(0.0));
+    v22
 }
 
 /// Guard of transition `step`.
@@ -694,7 +674,7 @@ fn guard_step<S: scalar::Scalar>(
 /// State and memory after transition `step`, from those before.
 /// State: q_theta [1], p_theta [m s^-1].
 ///
-/// 3 additions, 2 multiplications, 2 function calls.
+/// 2 additions, 1 multiplication, 1 fused multiply-add, 2 function calls.
 fn reset_step<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -705,12 +685,11 @@ fn reset_step<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_psi + p_psi;
     let v1 = S::constant(-1.0).pow(n_n);
-    let v2 = v0 * v1;
-    let v3 = x_q_theta + v2;
-    let v4 = v0.cos();
-    let v5 = v4 * x_p_theta;
-    let v6 = n_n + S::constant(1.0);
-    ([v3, v5], [v6])
+    let v2 = v0.mul_add(v1, x_q_theta);
+    let v3 = v0.cos();
+    let v4 = v3 * x_p_theta;
+    let v5 = n_n + S::constant(1.0);
+    ([v2, v4], [v5])
 }
 
 /// Full state on the section from its coordinates.
@@ -749,7 +728,7 @@ fn measures<S: scalar::Scalar>(functionals: &[S], p: &[S; PARAMETERS]) -> [S; 7]
 /// State derivative f of mode `stance` with all first derivatives.
 /// Components: q_theta, p_theta; derivatives by columns.
 ///
-/// 15 additions, 28 multiplications, 10 divisions, 4 function calls, 10 selections.
+/// 9 additions, 22 multiplications, 6 fused multiply-adds, 10 divisions, 2 function calls, 10 selections.
 fn d_flow_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -761,90 +740,82 @@ fn d_flow_stance<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
-    let v8 = x_q_theta.sin();
-    let v9 = p_g * v8;
-    let v10 = v1.sin();
-    let v11 = v10 * p_omega;
-    let v12 = v0 * v11;
-    let v13 = v12 * x_p_theta;
-    let v14 = -v13;
-    let v15 = S::select(b0, v14, S::constant(0.0));
-    let v16 = v15 / v6;
-    let v17 = v9 + v16;
-    let v18 = -v17;
-    let v19 = x_q_theta.cos();
-    let v20 = p_g * v19;
-    let v21 = -v20;
-    let v22 = S::constant(1.0) / v6;
-    let v23 = v12 / v6;
-    let v24 = S::select(b0, v23, S::constant(0.0));
-    let v25 = v7 / v6;
-    let v26 = S::constant(0.5) * v3;
-    let v27 = v25 * v26;
-    let v28 = -v27;
-    let v29 = S::select(b0, v28, S::constant(0.0));
-    let v30 = S::constant(0.5) * v11;
-    let v31 = x_p_theta * v30;
-    let v32 = v31 / v6;
-    let v33 = v16 / v6;
-    let v34 = v33 * v26;
-    let v35 = v32 + v34;
-    let v36 = S::select(b0, v35, S::constant(0.0));
-    let v37 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v38 = v25 * v37;
-    let v39 = -v38;
-    let v40 = v33 * v37;
-    let v41 = -v8;
-    let v42 = v10 * tau;
-    let v43 = v0 * v42;
-    let v44 = v25 * v43;
-    let v45 = S::select(b0, v44, S::constant(0.0));
-    let v46 = v33 * v43;
-    let v47 = v2 * tau;
-    let v48 = p_omega * v47;
-    let v49 = v48 + v10;
-    let v50 = v0 * v49;
-    let v51 = x_p_theta * v50;
-    let v52 = v51 / v6;
-    let v53 = v46 - v52;
-    let v54 = -v53;
-    let v55 = S::select(b0, v54, S::constant(0.0));
-    let v56 = v25 * v12;
-    let v57 = S::select(b0, v56, S::constant(0.0));
-    let v58 = v33 * v12;
-    let v59 = v2 * p_omega;
-    let v60 = p_omega * v59;
-    let v61 = v0 * v60;
-    let v62 = x_p_theta * v61;
-    let v63 = v62 / v6;
-    let v64 = v58 - v63;
-    let v65 = -v64;
-    let v66 = S::select(b0, v65, S::constant(0.0));
+    let (v8, v9) = x_q_theta.sin_cos();
+    let v10 = v3 * p_omega;
+    let v11 = v0 * v10;
+    let v12 = v11 * x_p_theta;
+    let v13 = -v12;
+    let v14 = S::select(b0, v13, S::constant(0.0));
+    let v15 = v14 / v6;
+    let v16 = p_g.mul_add(v8, v15);
+    let v17 = -v16;
+    let v18 = p_g * v9;
+    let v19 = -v18;
+    let v20 = S::constant(1.0) / v6;
+    let v21 = v11 / v6;
+    let v22 = S::select(b0, v21, S::constant(0.0));
+    let v23 = v7 / v6;
+    let v24 = S::constant(0.5) * v4;
+    let v25 = v23 * v24;
+    let v26 = -v25;
+    let v27 = S::select(b0, v26, S::constant(0.0));
+    let v28 = S::constant(0.5) * v10;
+    let v29 = x_p_theta * v28;
+    let v30 = v29 / v6;
+    let v31 = v15 / v6;
+    let v32 = v31.mul_add(v24, v30);
+    let v33 = S::select(b0, v32, S::constant(0.0));
+    let v34 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v35 = v23 * v34;
+    let v36 = -v35;
+    let v37 = v31 * v34;
+    let v38 = -v8;
+    let v39 = v3 * tau;
+    let v40 = v0 * v39;
+    let v41 = v23 * v40;
+    let v42 = S::select(b0, v41, S::constant(0.0));
+    let v43 = v2 * tau;
+    let v44 = p_omega.mul_add(v43, v3);
+    let v45 = v0 * v44;
+    let v46 = x_p_theta * v45;
+    let v47 = v46 / v6;
+    let v48 = v31.mul_add(v40, -v47);
+    let v49 = -v48;
+    let v50 = S::select(b0, v49, S::constant(0.0));
+    let v51 = v23 * v11;
+    let v52 = S::select(b0, v51, S::constant(0.0));
+    let v53 = v2 * p_omega;
+    let v54 = p_omega * v53;
+    let v55 = v0 * v54;
+    let v56 = x_p_theta * v55;
+    let v57 = v56 / v6;
+    let v58 = v31.mul_add(v11, -v57);
+    let v59 = -v58;
+    let v60 = S::select(b0, v59, S::constant(0.0));
     model::Jacobian {
-        value: [v7, v18],
-        dx: [[S::constant(0.0), v21], [v22, v24]],
+        value: [v7, v17],
+        dx: [[S::constant(0.0), v19], [v20, v22]],
         dp: [
-            [v29, v36],
-            [v39, v40],
+            [v27, v33],
+            [v36, v37],
             [S::constant(0.0), S::constant(0.0)],
-            [S::constant(0.0), v41],
+            [S::constant(0.0), v38],
             [S::constant(0.0), S::constant(0.0)],
-            [v45, v55],
+            [v42, v50],
         ],
-        dtau: [v57, v66],
+        dtau: [v52, v60],
         dt: [S::constant(0.0), S::constant(0.0)],
     }
 }
 
 /// Residual F = M k - f of mode `stance` with all first derivatives, by columns.
 ///
-/// 16 additions, 28 multiplications, 10 divisions, 4 function calls, 10 selections.
+/// 10 additions, 22 multiplications, 6 fused multiply-adds, 10 divisions, 2 function calls, 10 selections.
 fn d_residual_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -858,92 +829,84 @@ fn d_residual_stance<S: scalar::Scalar>(
     let &[k_q_theta, k_p_theta] = k;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
     let v8 = k_q_theta - v7;
-    let v9 = x_q_theta.sin();
-    let v10 = p_g * v9;
-    let v11 = v1.sin();
-    let v12 = v11 * p_omega;
-    let v13 = v0 * v12;
-    let v14 = v13 * x_p_theta;
-    let v15 = -v14;
-    let v16 = S::select(b0, v15, S::constant(0.0));
-    let v17 = v16 / v6;
-    let v18 = v10 + v17;
-    let v19 = k_p_theta + v18;
-    let v20 = x_q_theta.cos();
-    let v21 = p_g * v20;
-    let v22 = S::constant(1.0) / v6;
+    let (v9, v10) = x_q_theta.sin_cos();
+    let v11 = v3 * p_omega;
+    let v12 = v0 * v11;
+    let v13 = v12 * x_p_theta;
+    let v14 = -v13;
+    let v15 = S::select(b0, v14, S::constant(0.0));
+    let v16 = v15 / v6;
+    let v17 = p_g.mul_add(v9, v16);
+    let v18 = k_p_theta + v17;
+    let v19 = p_g * v10;
+    let v20 = S::constant(1.0) / v6;
+    let v21 = -v20;
+    let v22 = v12 / v6;
     let v23 = -v22;
-    let v24 = v13 / v6;
-    let v25 = -v24;
-    let v26 = S::select(b0, v25, S::constant(0.0));
-    let v27 = v7 / v6;
-    let v28 = S::constant(0.5) * v3;
-    let v29 = v27 * v28;
-    let v30 = S::select(b0, v29, S::constant(0.0));
-    let v31 = S::constant(0.5) * v12;
-    let v32 = x_p_theta * v31;
-    let v33 = v32 / v6;
-    let v34 = v17 / v6;
-    let v35 = v34 * v28;
-    let v36 = v33 + v35;
-    let v37 = -v36;
-    let v38 = S::select(b0, v37, S::constant(0.0));
-    let v39 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v40 = v27 * v39;
-    let v41 = v34 * v39;
-    let v42 = -v41;
-    let v43 = v11 * tau;
-    let v44 = v0 * v43;
-    let v45 = v27 * v44;
-    let v46 = -v45;
-    let v47 = S::select(b0, v46, S::constant(0.0));
-    let v48 = v34 * v44;
-    let v49 = v2 * tau;
-    let v50 = p_omega * v49;
-    let v51 = v50 + v11;
-    let v52 = v0 * v51;
-    let v53 = x_p_theta * v52;
-    let v54 = v53 / v6;
-    let v55 = v48 - v54;
-    let v56 = S::select(b0, v55, S::constant(0.0));
-    let v57 = v27 * v13;
-    let v58 = -v57;
-    let v59 = S::select(b0, v58, S::constant(0.0));
-    let v60 = v34 * v13;
-    let v61 = v2 * p_omega;
-    let v62 = p_omega * v61;
-    let v63 = v0 * v62;
-    let v64 = x_p_theta * v63;
-    let v65 = v64 / v6;
-    let v66 = v60 - v65;
-    let v67 = S::select(b0, v66, S::constant(0.0));
+    let v24 = S::select(b0, v23, S::constant(0.0));
+    let v25 = v7 / v6;
+    let v26 = S::constant(0.5) * v4;
+    let v27 = v25 * v26;
+    let v28 = S::select(b0, v27, S::constant(0.0));
+    let v29 = S::constant(0.5) * v11;
+    let v30 = x_p_theta * v29;
+    let v31 = v30 / v6;
+    let v32 = v16 / v6;
+    let v33 = v32.mul_add(v26, v31);
+    let v34 = -v33;
+    let v35 = S::select(b0, v34, S::constant(0.0));
+    let v36 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v37 = v25 * v36;
+    let v38 = v32 * v36;
+    let v39 = -v38;
+    let v40 = v3 * tau;
+    let v41 = v0 * v40;
+    let v42 = v25 * v41;
+    let v43 = -v42;
+    let v44 = S::select(b0, v43, S::constant(0.0));
+    let v45 = v2 * tau;
+    let v46 = p_omega.mul_add(v45, v3);
+    let v47 = v0 * v46;
+    let v48 = x_p_theta * v47;
+    let v49 = v48 / v6;
+    let v50 = v32.mul_add(v41, -v49);
+    let v51 = S::select(b0, v50, S::constant(0.0));
+    let v52 = v25 * v12;
+    let v53 = -v52;
+    let v54 = S::select(b0, v53, S::constant(0.0));
+    let v55 = v2 * p_omega;
+    let v56 = p_omega * v55;
+    let v57 = v0 * v56;
+    let v58 = x_p_theta * v57;
+    let v59 = v58 / v6;
+    let v60 = v32.mul_add(v12, -v59);
+    let v61 = S::select(b0, v60, S::constant(0.0));
     model::ResidualJacobian {
-        value: [v8, v19],
-        dx: [[S::constant(0.0), v21], [v23, v26]],
+        value: [v8, v18],
+        dx: [[S::constant(0.0), v19], [v21, v24]],
         dk: [[S::constant(1.0), S::constant(0.0)], [S::constant(0.0), S::constant(1.0)]],
         dp: [
-            [v30, v38],
-            [v40, v42],
+            [v28, v35],
+            [v37, v39],
             [S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), v9],
             [S::constant(0.0), S::constant(0.0)],
-            [v47, v56],
+            [v44, v51],
         ],
-        dtau: [v59, v67],
+        dtau: [v54, v61],
         dt: [S::constant(0.0), S::constant(0.0)],
     }
 }
 
 /// Residual F = M k - f of mode `stance` with its derivatives by state and rate, by columns.
 ///
-/// 8 additions, 7 multiplications, 5 divisions, 4 function calls, 3 selections.
+/// 6 additions, 5 multiplications, 2 fused multiply-adds, 5 divisions, 2 function calls, 3 selections.
 fn linearised_stance<S: scalar::Scalar>(
     x: &[S; STATES],
     k: &[S; STATES],
@@ -957,34 +920,30 @@ fn linearised_stance<S: scalar::Scalar>(
     let &[k_q_theta, k_p_theta] = k;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
     let v8 = k_q_theta - v7;
-    let v9 = x_q_theta.sin();
-    let v10 = p_g * v9;
-    let v11 = v1.sin();
-    let v12 = v11 * p_omega;
-    let v13 = v0 * v12;
-    let v14 = v13 * x_p_theta;
-    let v15 = -v14;
-    let v16 = S::select(b0, v15, S::constant(0.0));
-    let v17 = v16 / v6;
-    let v18 = v10 + v17;
-    let v19 = k_p_theta + v18;
-    let v20 = x_q_theta.cos();
-    let v21 = p_g * v20;
-    let v22 = S::constant(1.0) / v6;
+    let (v9, v10) = x_q_theta.sin_cos();
+    let v11 = v3 * p_omega;
+    let v12 = v0 * v11;
+    let v13 = v12 * x_p_theta;
+    let v14 = -v13;
+    let v15 = S::select(b0, v14, S::constant(0.0));
+    let v16 = v15 / v6;
+    let v17 = p_g.mul_add(v9, v16);
+    let v18 = k_p_theta + v17;
+    let v19 = p_g * v10;
+    let v20 = S::constant(1.0) / v6;
+    let v21 = -v20;
+    let v22 = v12 / v6;
     let v23 = -v22;
-    let v24 = v13 / v6;
-    let v25 = -v24;
-    let v26 = S::select(b0, v25, S::constant(0.0));
+    let v24 = S::select(b0, v23, S::constant(0.0));
     model::Linearised {
-        value: [v8, v19],
-        dx: [[S::constant(0.0), v21], [v23, v26]],
+        value: [v8, v18],
+        dx: [[S::constant(0.0), v19], [v21, v24]],
         dk: [[S::constant(1.0), S::constant(0.0)], [S::constant(0.0), S::constant(1.0)]],
     }
 }
@@ -1022,7 +981,7 @@ fn d_switch_0<S: scalar::Scalar>(
 
 /// Switching function 1 with all first derivatives.
 ///
-/// 8 additions, 17 multiplications, 1 division, 4 function calls, 5 selections.
+/// 5 additions, 14 multiplications, 3 fused multiply-adds, 1 division, 2 function calls, 5 selections.
 fn d_switch_1<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1034,58 +993,53 @@ fn d_switch_1<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.sin();
-    let v3 = v2 * p_omega;
-    let v4 = v0 * v3;
-    let v5 = x_q_theta.sin();
-    let v6 = v4 * v5;
-    let v7 = -v6;
-    let v8 = S::select(b0, v7, S::constant(0.0));
-    let v9 = x_q_theta.cos();
-    let v10 = x_p_theta * v9;
-    let v11 = v8 + v10;
-    let v12 = v4 * v9;
+    let (v2, v3) = v1.sin_cos();
+    let v4 = v2 * p_omega;
+    let v5 = v0 * v4;
+    let (v6, v7) = x_q_theta.sin_cos();
+    let v8 = v5 * v6;
+    let v9 = -v8;
+    let v10 = S::select(b0, v9, S::constant(0.0));
+    let v11 = x_p_theta.mul_add(v7, v10);
+    let v12 = v5 * v7;
     let v13 = -v12;
     let v14 = S::select(b0, v13, S::constant(0.0));
-    let v15 = x_p_theta * v5;
-    let v16 = v14 - v15;
-    let v17 = S::constant(0.5) * v3;
-    let v18 = v5 * v17;
-    let v19 = -v18;
-    let v20 = S::select(b0, v19, S::constant(0.0));
-    let v21 = v1.cos();
-    let v22 = v21 * tau;
-    let v23 = p_omega * v22;
-    let v24 = v23 + v2;
-    let v25 = v0 * v24;
-    let v26 = v5 * v25;
-    let v27 = -v26;
-    let v28 = S::select(b0, v27, S::constant(0.0));
-    let v29 = v21 * p_omega;
-    let v30 = p_omega * v29;
-    let v31 = v0 * v30;
-    let v32 = v5 * v31;
-    let v33 = -v32;
-    let v34 = S::select(b0, v33, S::constant(0.0));
+    let v15 = (-x_p_theta).mul_add(v6, v14);
+    let v16 = S::constant(0.5) * v4;
+    let v17 = v6 * v16;
+    let v18 = -v17;
+    let v19 = S::select(b0, v18, S::constant(0.0));
+    let v20 = v3 * tau;
+    let v21 = p_omega.mul_add(v20, v2);
+    let v22 = v0 * v21;
+    let v23 = v6 * v22;
+    let v24 = -v23;
+    let v25 = S::select(b0, v24, S::constant(0.0));
+    let v26 = v3 * p_omega;
+    let v27 = p_omega * v26;
+    let v28 = v0 * v27;
+    let v29 = v6 * v28;
+    let v30 = -v29;
+    let v31 = S::select(b0, v30, S::constant(0.0));
     model::Gradient {
         value: v11,
-        dx: [v16, v9],
+        dx: [v15, v7],
         dp: [
-            v20,
+            v19,
             S::constant(0.0),
             S::constant(0.0),
             S::constant(0.0),
             S::constant(0.0),
-            v28,
+            v25,
         ],
-        dtau: v34,
+        dtau: v31,
         dt: S::constant(0.0),
     }
 }
 
 /// Switching function 2 with all first derivatives.
 ///
-/// 14 additions, 33 multiplications, 5 divisions, 4 function calls, 7 selections.
+/// 8 additions, 27 multiplications, 6 fused multiply-adds, 5 divisions, 2 function calls, 7 selections.
 fn d_switch_2<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1097,79 +1051,71 @@ fn d_switch_2<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = v2 * p_omega;
-    let v4 = p_omega * v3;
-    let v5 = v0 * v4;
-    let v6 = p_m * v5;
-    let v7 = S::select(b0, v6, S::constant(0.0));
-    let v8 = p_m * p_g;
-    let v9 = x_q_theta.cos();
-    let v10 = v8 * v9;
-    let v11 = v7 + v10;
-    let v12 = x_p_theta * x_p_theta;
-    let v13 = p_m * v12;
-    let v14 = S::constant(1.0) + v2;
-    let v15 = v0 * v14;
-    let v16 = p_l_b + v15;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = v2 * p_omega;
+    let v5 = p_omega * v4;
+    let v6 = v0 * v5;
+    let v7 = p_m * v6;
+    let v8 = S::select(b0, v7, S::constant(0.0));
+    let v9 = p_m * p_g;
+    let (v11, v10) = x_q_theta.sin_cos();
+    let v12 = v9.mul_add(v10, v8);
+    let v13 = x_p_theta * x_p_theta;
+    let v14 = p_m * v13;
+    let v15 = S::constant(1.0) + v2;
+    let v16 = v0.mul_add(v15, p_l_b);
     let v17 = S::select(b0, v16, p_l_b);
-    let v18 = v13 / v17;
-    let v19 = v11 + v18;
-    let v20 = x_q_theta.sin();
-    let v21 = v8 * v20;
-    let v22 = -v21;
-    let v23 = x_p_theta + x_p_theta;
-    let v24 = p_m * v23;
-    let v25 = v24 / v17;
-    let v26 = S::constant(0.5) * v4;
-    let v27 = p_m * v26;
-    let v28 = v18 / v17;
-    let v29 = S::constant(0.5) * v14;
-    let v30 = v28 * v29;
-    let v31 = v27 - v30;
-    let v32 = S::select(b0, v31, S::constant(0.0));
-    let v33 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v34 = v28 * v33;
-    let v35 = -v34;
-    let v36 = S::select(b0, v5, S::constant(0.0));
-    let v37 = v9 * p_g;
+    let v18 = v14 / v17;
+    let v19 = v12 + v18;
+    let v20 = v9 * v11;
+    let v21 = -v20;
+    let v22 = x_p_theta + x_p_theta;
+    let v23 = p_m * v22;
+    let v24 = v23 / v17;
+    let v25 = S::constant(0.5) * v5;
+    let v26 = p_m * v25;
+    let v27 = v18 / v17;
+    let v28 = S::constant(0.5) * v15;
+    let v29 = v27 * v28;
+    let v30 = v26 - v29;
+    let v31 = S::select(b0, v30, S::constant(0.0));
+    let v32 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v33 = v27 * v32;
+    let v34 = -v33;
+    let v35 = S::select(b0, v6, S::constant(0.0));
+    let v36 = v10.mul_add(p_g, v35);
+    let v37 = v13 / v17;
     let v38 = v36 + v37;
-    let v39 = v12 / v17;
-    let v40 = v38 + v39;
-    let v41 = v9 * p_m;
-    let v42 = v1.sin();
-    let v43 = v42 * tau;
-    let v44 = p_omega * v43;
-    let v45 = v2 - v44;
-    let v46 = p_omega * v45;
-    let v47 = v3 + v46;
-    let v48 = v0 * v47;
-    let v49 = p_m * v48;
-    let v50 = v0 * v43;
-    let v51 = v28 * v50;
-    let v52 = v49 + v51;
-    let v53 = S::select(b0, v52, S::constant(0.0));
-    let v54 = v42 * p_omega;
-    let v55 = v0 * v54;
-    let v56 = v28 * v55;
-    let v57 = p_omega * v54;
-    let v58 = p_omega * v57;
-    let v59 = v0 * v58;
-    let v60 = p_m * v59;
-    let v61 = v56 - v60;
-    let v62 = S::select(b0, v61, S::constant(0.0));
+    let v39 = v10 * p_m;
+    let v40 = v3 * tau;
+    let v41 = (-p_omega).mul_add(v40, v2);
+    let v42 = p_omega.mul_add(v41, v4);
+    let v43 = v0 * v42;
+    let v44 = p_m * v43;
+    let v45 = v0 * v40;
+    let v46 = v27.mul_add(v45, v44);
+    let v47 = S::select(b0, v46, S::constant(0.0));
+    let v48 = v3 * p_omega;
+    let v49 = v0 * v48;
+    let v50 = v27 * v49;
+    let v51 = p_omega * v48;
+    let v52 = p_omega * v51;
+    let v53 = v0 * v52;
+    let v54 = p_m * v53;
+    let v55 = v50 - v54;
+    let v56 = S::select(b0, v55, S::constant(0.0));
     model::Gradient {
         value: v19,
-        dx: [v22, v25],
-        dp: [v32, v35, v40, v41, S::constant(0.0), v53],
-        dtau: v62,
+        dx: [v21, v24],
+        dp: [v31, v34, v38, v39, S::constant(0.0), v47],
+        dtau: v56,
         dt: S::constant(0.0),
     }
 }
 
 /// Switching function 3 with all first derivatives.
 ///
-/// 18 additions, 49 multiplications, 5 divisions, 4 function calls, 16 selections.
+/// 8 additions, 39 multiplications, 10 fused multiply-adds, 5 divisions, 2 function calls, 16 selections.
 fn d_switch_3<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1181,101 +1127,89 @@ fn d_switch_3<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = v2 * p_omega;
-    let v4 = p_omega * v3;
-    let v5 = v0 * v4;
-    let v6 = p_m * v5;
-    let v7 = S::select(b0, v6, S::constant(0.0));
-    let v8 = p_m * p_g;
-    let v9 = x_q_theta.cos();
-    let v10 = v8 * v9;
-    let v11 = v7 + v10;
-    let v12 = x_p_theta * x_p_theta;
-    let v13 = p_m * v12;
-    let v14 = S::constant(1.0) + v2;
-    let v15 = v0 * v14;
-    let v16 = p_l_b + v15;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = v2 * p_omega;
+    let v5 = p_omega * v4;
+    let v6 = v0 * v5;
+    let v7 = p_m * v6;
+    let v8 = S::select(b0, v7, S::constant(0.0));
+    let v9 = p_m * p_g;
+    let (v11, v10) = x_q_theta.sin_cos();
+    let v12 = v9.mul_add(v10, v8);
+    let v13 = x_p_theta * x_p_theta;
+    let v14 = p_m * v13;
+    let v15 = S::constant(1.0) + v2;
+    let v16 = v0.mul_add(v15, p_l_b);
     let v17 = S::select(b0, v16, p_l_b);
-    let v18 = v13 / v17;
-    let v19 = v11 + v18;
-    let v20 = v1.sin();
-    let v21 = v20 * p_omega;
-    let v22 = v0 * v21;
-    let v23 = v19 * v22;
-    let v24 = S::select(b0, v23, S::constant(0.0));
-    let v25 = x_q_theta.sin();
-    let v26 = v8 * v25;
-    let v27 = v22 * v26;
-    let v28 = -v27;
-    let v29 = S::select(b0, v28, S::constant(0.0));
-    let v30 = x_p_theta + x_p_theta;
-    let v31 = p_m * v30;
-    let v32 = v31 / v17;
-    let v33 = v22 * v32;
-    let v34 = S::select(b0, v33, S::constant(0.0));
-    let v35 = S::constant(0.5) * v4;
-    let v36 = p_m * v35;
-    let v37 = v18 / v17;
-    let v38 = S::constant(0.5) * v14;
-    let v39 = v37 * v38;
-    let v40 = v36 - v39;
-    let v41 = v22 * v40;
-    let v42 = S::select(b0, v41, S::constant(0.0));
-    let v43 = S::constant(0.5) * v21;
-    let v44 = v19 * v43;
-    let v45 = v42 + v44;
-    let v46 = S::select(b0, v45, S::constant(0.0));
-    let v47 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v48 = v37 * v47;
-    let v49 = v22 * v48;
-    let v50 = -v49;
-    let v51 = S::select(b0, v50, S::constant(0.0));
-    let v52 = S::select(b0, v5, S::constant(0.0));
-    let v53 = v9 * p_g;
-    let v54 = v52 + v53;
-    let v55 = v12 / v17;
-    let v56 = v54 + v55;
-    let v57 = v22 * v56;
-    let v58 = S::select(b0, v57, S::constant(0.0));
-    let v59 = v9 * p_m;
-    let v60 = v22 * v59;
-    let v61 = S::select(b0, v60, S::constant(0.0));
-    let v62 = v20 * tau;
-    let v63 = p_omega * v62;
-    let v64 = v2 - v63;
-    let v65 = p_omega * v64;
-    let v66 = v3 + v65;
-    let v67 = v0 * v66;
-    let v68 = p_m * v67;
-    let v69 = v0 * v62;
-    let v70 = v37 * v69;
-    let v71 = v68 + v70;
-    let v72 = v22 * v71;
-    let v73 = S::select(b0, v72, S::constant(0.0));
-    let v74 = v2 * tau;
-    let v75 = p_omega * v74;
-    let v76 = v75 + v20;
-    let v77 = v0 * v76;
-    let v78 = v19 * v77;
-    let v79 = v73 + v78;
-    let v80 = S::select(b0, v79, S::constant(0.0));
-    let v81 = v37 * v22;
-    let v82 = p_omega * v21;
-    let v83 = p_omega * v82;
-    let v84 = v0 * v83;
-    let v85 = p_m * v84;
-    let v86 = v81 - v85;
-    let v87 = v22 * v86;
-    let v88 = S::select(b0, v87, S::constant(0.0));
-    let v89 = v19 * v5;
-    let v90 = v88 + v89;
-    let v91 = S::select(b0, v90, S::constant(0.0));
+    let v18 = v14 / v17;
+    let v19 = v12 + v18;
+    let v20 = v3 * p_omega;
+    let v21 = v0 * v20;
+    let v22 = v19 * v21;
+    let v23 = S::select(b0, v22, S::constant(0.0));
+    let v24 = v9 * v11;
+    let v25 = v21 * v24;
+    let v26 = -v25;
+    let v27 = S::select(b0, v26, S::constant(0.0));
+    let v28 = x_p_theta + x_p_theta;
+    let v29 = p_m * v28;
+    let v30 = v29 / v17;
+    let v31 = v21 * v30;
+    let v32 = S::select(b0, v31, S::constant(0.0));
+    let v33 = S::constant(0.5) * v5;
+    let v34 = p_m * v33;
+    let v35 = v18 / v17;
+    let v36 = S::constant(0.5) * v15;
+    let v37 = v35 * v36;
+    let v38 = v34 - v37;
+    let v39 = v21 * v38;
+    let v40 = S::select(b0, v39, S::constant(0.0));
+    let v41 = S::constant(0.5) * v20;
+    let v42 = v19.mul_add(v41, v40);
+    let v43 = S::select(b0, v42, S::constant(0.0));
+    let v44 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v45 = v35 * v44;
+    let v46 = v21 * v45;
+    let v47 = -v46;
+    let v48 = S::select(b0, v47, S::constant(0.0));
+    let v49 = S::select(b0, v6, S::constant(0.0));
+    let v50 = v10.mul_add(p_g, v49);
+    let v51 = v13 / v17;
+    let v52 = v50 + v51;
+    let v53 = v21 * v52;
+    let v54 = S::select(b0, v53, S::constant(0.0));
+    let v55 = v10 * p_m;
+    let v56 = v21 * v55;
+    let v57 = S::select(b0, v56, S::constant(0.0));
+    let v58 = v3 * tau;
+    let v59 = (-p_omega).mul_add(v58, v2);
+    let v60 = p_omega.mul_add(v59, v4);
+    let v61 = v0 * v60;
+    let v62 = p_m * v61;
+    let v63 = v0 * v58;
+    let v64 = v35.mul_add(v63, v62);
+    let v65 = v21 * v64;
+    let v66 = S::select(b0, v65, S::constant(0.0));
+    let v67 = v2 * tau;
+    let v68 = p_omega.mul_add(v67, v3);
+    let v69 = v0 * v68;
+    let v70 = v19.mul_add(v69, v66);
+    let v71 = S::select(b0, v70, S::constant(0.0));
+    let v72 = v35 * v21;
+    let v73 = p_omega * v20;
+    let v74 = p_omega * v73;
+    let v75 = v0 * v74;
+    let v76 = p_m * v75;
+    let v77 = v72 - v76;
+    let v78 = v21 * v77;
+    let v79 = S::select(b0, v78, S::constant(0.0));
+    let v80 = v19.mul_add(v6, v79);
+    let v81 = S::select(b0, v80, S::constant(0.0));
     model::Gradient {
-        value: v24,
-        dx: [v29, v34],
-        dp: [v46, v51, v58, v61, S::constant(0.0), v80],
-        dtau: v91,
+        value: v23,
+        dx: [v27, v32],
+        dp: [v43, v48, v54, v57, S::constant(0.0), v71],
+        dtau: v81,
         dt: S::constant(0.0),
     }
 }
@@ -1314,7 +1248,7 @@ fn d_guard_step<S: scalar::Scalar>(
 /// State after transition `step` with all first derivatives.
 /// Components: q_theta, p_theta; derivatives by columns.
 ///
-/// 5 additions, 3 multiplications, 3 function calls.
+/// 4 additions, 2 multiplications, 1 fused multiply-add, 2 function calls.
 fn d_reset_step<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1325,24 +1259,22 @@ fn d_reset_step<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_psi + p_psi;
     let v1 = S::constant(-1.0).pow(n_n);
-    let v2 = v0 * v1;
-    let v3 = x_q_theta + v2;
-    let v4 = v0.cos();
-    let v5 = v4 * x_p_theta;
+    let v2 = v0.mul_add(v1, x_q_theta);
+    let (v4, v3) = v0.sin_cos();
+    let v5 = v3 * x_p_theta;
     let v6 = v1 + v1;
-    let v7 = v0.sin();
-    let v8 = -v7;
-    let v9 = v8 - v7;
-    let v10 = x_p_theta * v9;
+    let v7 = -v4;
+    let v8 = v7 - v4;
+    let v9 = x_p_theta * v8;
     model::Jacobian {
-        value: [v3, v5],
-        dx: [[S::constant(1.0), S::constant(0.0)], [S::constant(0.0), v4]],
+        value: [v2, v5],
+        dx: [[S::constant(1.0), S::constant(0.0)], [S::constant(0.0), v3]],
         dp: [
             [S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0)],
             [S::constant(0.0), S::constant(0.0)],
-            [v6, v10],
+            [v6, v9],
             [S::constant(0.0), S::constant(0.0)],
         ],
         dtau: [S::constant(0.0), S::constant(0.0)],
@@ -1537,7 +1469,7 @@ fn d_measures<S: scalar::Scalar>(
 
 /// The integrands.
 ///
-/// 9 additions, 17 multiplications, 2 divisions, 4 function calls, 7 selections.
+/// 5 additions, 13 multiplications, 4 fused multiply-adds, 2 divisions, 2 function calls, 7 selections.
 fn integrands<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1547,51 +1479,45 @@ fn integrands<S: scalar::Scalar>(
     let &[p_l_s, p_l_b, p_m, p_g, _, p_omega] = env.p;
     let tau = env.tau;
     let &[x_q_theta, x_p_theta] = x;
-    let v0 = x_q_theta.sin();
-    let v1 = x_p_theta * v0;
+    let (v0, v1) = x_q_theta.sin_cos();
     let v2 = p_l_s / S::constant(2.0);
     let v3 = p_omega * tau;
-    let v4 = v3.sin();
-    let v5 = v4 * p_omega;
-    let v6 = v2 * v5;
-    let v7 = x_q_theta.cos();
-    let v8 = v6 * v7;
+    let (v4, v5) = v3.sin_cos();
+    let v6 = v4 * p_omega;
+    let v7 = v2 * v6;
+    let v8 = v7 * v1;
     let v9 = -v8;
     let v10 = S::select(b0, v9, S::constant(0.0));
-    let v11 = v1 - v10;
-    let v12 = v6 * v0;
+    let v11 = x_p_theta.mul_add(v0, -v10);
+    let v12 = v7 * v0;
     let v13 = -v12;
     let v14 = S::select(b0, v13, S::constant(0.0));
-    let v15 = x_p_theta * v7;
-    let v16 = v14 + v15;
-    let v17 = -v16;
-    let v18 = S::select(b1, v16, v17);
-    let v19 = v3.cos();
-    let v20 = v19 * p_omega;
-    let v21 = p_omega * v20;
-    let v22 = v2 * v21;
-    let v23 = p_m * v22;
-    let v24 = S::select(b0, v23, S::constant(0.0));
-    let v25 = p_m * p_g;
-    let v26 = v25 * v7;
-    let v27 = v24 + v26;
-    let v28 = x_p_theta * x_p_theta;
-    let v29 = p_m * v28;
-    let v30 = S::constant(1.0) + v19;
-    let v31 = v2 * v30;
-    let v32 = p_l_b + v31;
-    let v33 = S::select(b0, v32, p_l_b);
-    let v34 = v29 / v33;
-    let v35 = v27 + v34;
-    let v36 = v35 * v6;
-    let v37 = S::select(b0, v36, S::constant(0.0));
-    let v38 = S::select(b3, v37, S::constant(0.0));
-    [v11, v18, v38]
+    let v15 = x_p_theta.mul_add(v1, v14);
+    let v16 = -v15;
+    let v17 = S::select(b1, v15, v16);
+    let v18 = v5 * p_omega;
+    let v19 = p_omega * v18;
+    let v20 = v2 * v19;
+    let v21 = p_m * v20;
+    let v22 = S::select(b0, v21, S::constant(0.0));
+    let v23 = p_m * p_g;
+    let v24 = v23.mul_add(v1, v22);
+    let v25 = x_p_theta * x_p_theta;
+    let v26 = p_m * v25;
+    let v27 = S::constant(1.0) + v5;
+    let v28 = v2.mul_add(v27, p_l_b);
+    let v29 = S::select(b0, v28, p_l_b);
+    let v30 = v26 / v29;
+    let v31 = v24 + v30;
+    let v32 = v31 * v7;
+    let v33 = S::select(b0, v32, S::constant(0.0));
+    let v34 = S::select(b3, v33, S::constant(0.0));
+    [v11, v17, v34]
 }
 
 /// Observable 0.
 ///
-/// 5 additions, 10 multiplications, 2 divisions, 2 function calls, 3 selections.
+/// 3 additions, 8 multiplications, 2 fused multiply-adds, 2 divisions, 2 function calls, 3 selections.
 fn observable_0<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1611,24 +1537,22 @@ fn observable_0<S: scalar::Scalar>(
     let v7 = S::select(b0, v6, S::constant(0.0));
     let v8 = p_m * p_g;
     let v9 = x_q_theta.cos();
-    let v10 = v8 * v9;
-    let v11 = v7 + v10;
-    let v12 = x_p_theta * x_p_theta;
-    let v13 = p_m * v12;
-    let v14 = S::constant(1.0) + v2;
-    let v15 = v0 * v14;
-    let v16 = p_l_b + v15;
-    let v17 = S::select(b0, v16, p_l_b);
-    let v18 = v13 / v17;
-    let v19 = v11 + v18;
-    let v20 = -v19;
-    let v21 = S::select(b2, v19, v20);
-    v21
+    let v10 = v8.mul_add(v9, v7);
+    let v11 = x_p_theta * x_p_theta;
+    let v12 = p_m * v11;
+    let v13 = S::constant(1.0) + v2;
+    let v14 = v0.mul_add(v13, p_l_b);
+    let v15 = S::select(b0, v14, p_l_b);
+    let v16 = v12 / v15;
+    let v17 = v10 + v16;
+    let v18 = -v17;
+    let v19 = S::select(b2, v17, v18);
+    v19
 }
 
 /// Observable 0 with all first derivatives.
 ///
-/// 21 additions, 33 multiplications, 5 divisions, 4 function calls, 19 selections.
+/// 15 additions, 27 multiplications, 6 fused multiply-adds, 5 divisions, 2 function calls, 19 selections.
 fn d_observable_0<S: scalar::Scalar>(
     x: &[S; STATES],
     env: &model::Env<'_, S, PARAMETERS>,
@@ -1640,99 +1564,91 @@ fn d_observable_0<S: scalar::Scalar>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = v2 * p_omega;
-    let v4 = p_omega * v3;
-    let v5 = v0 * v4;
-    let v6 = p_m * v5;
-    let v7 = S::select(b0, v6, S::constant(0.0));
-    let v8 = p_m * p_g;
-    let v9 = x_q_theta.cos();
-    let v10 = v8 * v9;
-    let v11 = v7 + v10;
-    let v12 = x_p_theta * x_p_theta;
-    let v13 = p_m * v12;
-    let v14 = S::constant(1.0) + v2;
-    let v15 = v0 * v14;
-    let v16 = p_l_b + v15;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = v2 * p_omega;
+    let v5 = p_omega * v4;
+    let v6 = v0 * v5;
+    let v7 = p_m * v6;
+    let v8 = S::select(b0, v7, S::constant(0.0));
+    let v9 = p_m * p_g;
+    let (v11, v10) = x_q_theta.sin_cos();
+    let v12 = v9.mul_add(v10, v8);
+    let v13 = x_p_theta * x_p_theta;
+    let v14 = p_m * v13;
+    let v15 = S::constant(1.0) + v2;
+    let v16 = v0.mul_add(v15, p_l_b);
     let v17 = S::select(b0, v16, p_l_b);
-    let v18 = v13 / v17;
-    let v19 = v11 + v18;
+    let v18 = v14 / v17;
+    let v19 = v12 + v18;
     let v20 = -v19;
     let v21 = S::select(b2, v19, v20);
-    let v22 = x_q_theta.sin();
-    let v23 = v8 * v22;
-    let v24 = -v23;
-    let v25 = S::select(b2, v24, v23);
-    let v26 = x_p_theta + x_p_theta;
-    let v27 = p_m * v26;
-    let v28 = v27 / v17;
-    let v29 = -v28;
-    let v30 = S::select(b2, v28, v29);
-    let v31 = S::constant(0.5) * v4;
-    let v32 = p_m * v31;
-    let v33 = v18 / v17;
-    let v34 = S::constant(0.5) * v14;
-    let v35 = v33 * v34;
-    let v36 = v32 - v35;
-    let v37 = S::select(b0, v36, S::constant(0.0));
-    let v38 = -v36;
-    let v39 = S::select(b0, v38, S::constant(0.0));
-    let v40 = S::select(b2, v37, v39);
-    let v41 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v42 = v33 * v41;
-    let v43 = -v42;
-    let v44 = S::select(b2, v43, v42);
-    let v45 = S::select(b0, v5, S::constant(0.0));
-    let v46 = v9 * p_g;
+    let v22 = v9 * v11;
+    let v23 = -v22;
+    let v24 = S::select(b2, v23, v22);
+    let v25 = x_p_theta + x_p_theta;
+    let v26 = p_m * v25;
+    let v27 = v26 / v17;
+    let v28 = -v27;
+    let v29 = S::select(b2, v27, v28);
+    let v30 = S::constant(0.5) * v5;
+    let v31 = p_m * v30;
+    let v32 = v18 / v17;
+    let v33 = S::constant(0.5) * v15;
+    let v34 = v32 * v33;
+    let v35 = v31 - v34;
+    let v36 = S::select(b0, v35, S::constant(0.0));
+    let v37 = -v35;
+    let v38 = S::select(b0, v37, S::constant(0.0));
+    let v39 = S::select(b2, v36, v38);
+    let v40 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v41 = v32 * v40;
+    let v42 = -v41;
+    let v43 = S::select(b2, v42, v41);
+    let v44 = S::select(b0, v6, S::constant(0.0));
+    let v45 = v10.mul_add(p_g, v44);
+    let v46 = v13 / v17;
     let v47 = v45 + v46;
-    let v48 = v12 / v17;
-    let v49 = v47 + v48;
-    let v50 = -v49;
-    let v51 = S::select(b2, v49, v50);
-    let v52 = v9 * p_m;
-    let v53 = -v52;
-    let v54 = S::select(b2, v52, v53);
-    let v55 = v1.sin();
-    let v56 = v55 * tau;
-    let v57 = p_omega * v56;
-    let v58 = v2 - v57;
-    let v59 = p_omega * v58;
-    let v60 = v3 + v59;
-    let v61 = v0 * v60;
-    let v62 = p_m * v61;
-    let v63 = v0 * v56;
-    let v64 = v33 * v63;
-    let v65 = v62 + v64;
-    let v66 = S::select(b0, v65, S::constant(0.0));
-    let v67 = -v65;
-    let v68 = S::select(b0, v67, S::constant(0.0));
-    let v69 = S::select(b2, v66, v68);
-    let v70 = v55 * p_omega;
-    let v71 = v0 * v70;
-    let v72 = v33 * v71;
-    let v73 = p_omega * v70;
-    let v74 = p_omega * v73;
-    let v75 = v0 * v74;
-    let v76 = p_m * v75;
-    let v77 = v72 - v76;
-    let v78 = S::select(b0, v77, S::constant(0.0));
-    let v79 = -v77;
-    let v80 = S::select(b0, v79, S::constant(0.0));
-    let v81 = S::select(b2, v78, v80);
+    let v48 = -v47;
+    let v49 = S::select(b2, v47, v48);
+    let v50 = v10 * p_m;
+    let v51 = -v50;
+    let v52 = S::select(b2, v50, v51);
+    let v53 = v3 * tau;
+    let v54 = (-p_omega).mul_add(v53, v2);
+    let v55 = p_omega.mul_add(v54, v4);
+    let v56 = v0 * v55;
+    let v57 = p_m * v56;
+    let v58 = v0 * v53;
+    let v59 = v32.mul_add(v58, v57);
+    let v60 = S::select(b0, v59, S::constant(0.0));
+    let v61 = -v59;
+    let v62 = S::select(b0, v61, S::constant(0.0));
+    let v63 = S::select(b2, v60, v62);
+    let v64 = v3 * p_omega;
+    let v65 = v0 * v64;
+    let v66 = v32 * v65;
+    let v67 = p_omega * v64;
+    let v68 = p_omega * v67;
+    let v69 = v0 * v68;
+    let v70 = p_m * v69;
+    let v71 = v66 - v70;
+    let v72 = S::select(b0, v71, S::constant(0.0));
+    let v73 = -v71;
+    let v74 = S::select(b0, v73, S::constant(0.0));
+    let v75 = S::select(b2, v72, v74);
     model::RateGradient {
         value: v21,
-        dx: [v25, v30],
+        dx: [v24, v29],
         dk: [S::constant(0.0), S::constant(0.0)],
-        dp: [v40, v44, v51, v54, S::constant(0.0), v69],
-        dtau: v81,
+        dp: [v39, v43, v49, v52, S::constant(0.0), v63],
+        dtau: v75,
         dt: S::constant(0.0),
     }
 }
 
 /// State derivative f of mode `stance` and, for each column v, (df/dx) v.
 ///
-/// Once: 6 additions, 7 multiplications, 5 divisions, 4 function calls, 3 selections. A column, at most: 1 addition, 3 multiplications.
+/// Once: 4 additions, 5 multiplications, 2 fused multiply-adds, 5 divisions, 2 function calls, 3 selections. A column: 2 multiplications, 1 fused multiply-add.
 #[inline]
 fn tangent_flow_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1746,41 +1662,37 @@ fn tangent_flow_stance<S: scalar::Scalar, const C: usize>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
-    let v8 = x_q_theta.sin();
-    let v9 = p_g * v8;
-    let v10 = v1.sin();
-    let v11 = v10 * p_omega;
-    let v12 = v0 * v11;
-    let v13 = v12 * x_p_theta;
-    let v14 = -v13;
-    let v15 = S::select(b0, v14, S::constant(0.0));
-    let v16 = v15 / v6;
-    let v17 = v9 + v16;
-    let v18 = -v17;
-    let v19 = x_q_theta.cos();
-    let v20 = p_g * v19;
-    let v21 = -v20;
-    let v22 = S::constant(1.0) / v6;
-    let v23 = v12 / v6;
-    let v24 = S::select(b0, v23, S::constant(0.0));
+    let (v8, v9) = x_q_theta.sin_cos();
+    let v10 = v3 * p_omega;
+    let v11 = v0 * v10;
+    let v12 = v11 * x_p_theta;
+    let v13 = -v12;
+    let v14 = S::select(b0, v13, S::constant(0.0));
+    let v15 = v14 / v6;
+    let v16 = p_g.mul_add(v8, v15);
+    let v17 = -v16;
+    let v18 = p_g * v9;
+    let v19 = -v18;
+    let v20 = S::constant(1.0) / v6;
+    let v21 = v11 / v6;
+    let v22 = S::select(b0, v21, S::constant(0.0));
     let mut products = [[S::constant(0.0); STATES]; C];
     for (product, column) in products.iter_mut().zip(columns) {
         let &[dx_q_theta, dx_p_theta] = column;
-        *product = [v22 * dx_p_theta, v21 * dx_q_theta + v24 * dx_p_theta];
+        *product = [v20 * dx_p_theta, v22.mul_add(dx_p_theta, v19 * dx_q_theta)];
     }
-    ([v7, v18], products)
+    ([v7, v17], products)
 }
 
 /// State derivative f and integrands of mode `stance` and, for each column (v, w),
 /// (d./dx) v + (d./dp) w.
 ///
-/// Once: 37 additions, 61 multiplications, 13 divisions, 4 function calls, 41 selections. A column, at most: 20 additions, 25 multiplications.
+/// Once: 25 additions, 49 multiplications, 12 fused multiply-adds, 13 divisions, 2 function calls, 41 selections. A column: 5 multiplications, 20 fused multiply-adds.
 #[inline]
 fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -1809,160 +1721,146 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
     let &[x_q_theta, x_p_theta] = x;
     let v0 = p_l_s / S::constant(2.0);
     let v1 = p_omega * tau;
-    let v2 = v1.cos();
-    let v3 = S::constant(1.0) + v2;
-    let v4 = v0 * v3;
-    let v5 = p_l_b + v4;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
     let v6 = S::select(b0, v5, p_l_b);
     let v7 = x_p_theta / v6;
-    let v8 = x_q_theta.sin();
-    let v9 = p_g * v8;
-    let v10 = v1.sin();
-    let v11 = v10 * p_omega;
-    let v12 = v0 * v11;
-    let v13 = v12 * x_p_theta;
-    let v14 = -v13;
-    let v15 = S::select(b0, v14, S::constant(0.0));
-    let v16 = v15 / v6;
-    let v17 = v9 + v16;
-    let v18 = -v17;
-    let v19 = x_p_theta * v8;
-    let v20 = x_q_theta.cos();
-    let v21 = v12 * v20;
-    let v22 = -v21;
-    let v23 = S::select(b0, v22, S::constant(0.0));
-    let v24 = v19 - v23;
-    let v25 = v12 * v8;
-    let v26 = -v25;
-    let v27 = S::select(b0, v26, S::constant(0.0));
-    let v28 = x_p_theta * v20;
-    let v29 = v27 + v28;
-    let v30 = -v29;
-    let v31 = S::select(b1, v29, v30);
-    let v32 = v2 * p_omega;
-    let v33 = p_omega * v32;
-    let v34 = v0 * v33;
-    let v35 = p_m * v34;
-    let v36 = S::select(b0, v35, S::constant(0.0));
-    let v37 = p_m * p_g;
-    let v38 = v37 * v20;
-    let v39 = v36 + v38;
-    let v40 = x_p_theta * x_p_theta;
-    let v41 = p_m * v40;
-    let v42 = v41 / v6;
-    let v43 = v39 + v42;
-    let v44 = v43 * v12;
-    let v45 = S::select(b0, v44, S::constant(0.0));
-    let v46 = S::select(b3, v45, S::constant(0.0));
-    let v47 = p_g * v20;
+    let (v8, v9) = x_q_theta.sin_cos();
+    let v10 = v3 * p_omega;
+    let v11 = v0 * v10;
+    let v12 = v11 * x_p_theta;
+    let v13 = -v12;
+    let v14 = S::select(b0, v13, S::constant(0.0));
+    let v15 = v14 / v6;
+    let v16 = p_g.mul_add(v8, v15);
+    let v17 = -v16;
+    let v18 = x_p_theta * v8;
+    let v19 = v11 * v9;
+    let v20 = -v19;
+    let v21 = S::select(b0, v20, S::constant(0.0));
+    let v22 = v18 - v21;
+    let v23 = v11 * v8;
+    let v24 = -v23;
+    let v25 = S::select(b0, v24, S::constant(0.0));
+    let v26 = x_p_theta * v9;
+    let v27 = v25 + v26;
+    let v28 = -v27;
+    let v29 = S::select(b1, v27, v28);
+    let v30 = v2 * p_omega;
+    let v31 = p_omega * v30;
+    let v32 = v0 * v31;
+    let v33 = p_m * v32;
+    let v34 = S::select(b0, v33, S::constant(0.0));
+    let v35 = p_m * p_g;
+    let v36 = v35.mul_add(v9, v34);
+    let v37 = x_p_theta * x_p_theta;
+    let v38 = p_m * v37;
+    let v39 = v38 / v6;
+    let v40 = v36 + v39;
+    let v41 = v40 * v11;
+    let v42 = S::select(b0, v41, S::constant(0.0));
+    let v43 = S::select(b3, v42, S::constant(0.0));
+    let v44 = p_g * v9;
+    let v45 = -v44;
+    let v46 = v26 + v25;
+    let v47 = v21 - v18;
     let v48 = -v47;
-    let v49 = v28 + v27;
-    let v50 = v23 - v19;
-    let v51 = -v50;
-    let v52 = S::select(b1, v50, v51);
-    let v53 = v37 * v8;
-    let v54 = v12 * v53;
-    let v55 = -v54;
-    let v56 = S::select(b0, v55, S::constant(0.0));
-    let v57 = S::select(b3, v56, S::constant(0.0));
-    let v58 = S::constant(1.0) / v6;
-    let v59 = v12 / v6;
-    let v60 = S::select(b0, v59, S::constant(0.0));
-    let v61 = -v20;
-    let v62 = S::select(b1, v20, v61);
-    let v63 = x_p_theta + x_p_theta;
-    let v64 = p_m * v63;
-    let v65 = v64 / v6;
-    let v66 = v12 * v65;
-    let v67 = S::select(b0, v66, S::constant(0.0));
-    let v68 = S::select(b3, v67, S::constant(0.0));
-    let v69 = v7 / v6;
-    let v70 = S::constant(0.5) * v3;
-    let v71 = v69 * v70;
-    let v72 = -v71;
-    let v73 = S::select(b0, v72, S::constant(0.0));
-    let v74 = S::constant(0.5) * v11;
-    let v75 = x_p_theta * v74;
-    let v76 = v75 / v6;
-    let v77 = v16 / v6;
-    let v78 = v77 * v70;
-    let v79 = v76 + v78;
-    let v80 = S::select(b0, v79, S::constant(0.0));
-    let v81 = v20 * v74;
-    let v82 = S::select(b0, v81, S::constant(0.0));
-    let v83 = v8 * v74;
-    let v84 = -v83;
-    let v85 = S::select(b0, v84, S::constant(0.0));
-    let v86 = S::select(b0, v83, S::constant(0.0));
-    let v87 = S::select(b1, v85, v86);
-    let v88 = S::constant(0.5) * v33;
-    let v89 = p_m * v88;
-    let v90 = v42 / v6;
-    let v91 = v90 * v70;
-    let v92 = v89 - v91;
-    let v93 = v12 * v92;
-    let v94 = S::select(b0, v93, S::constant(0.0));
-    let v95 = v43 * v74;
-    let v96 = v94 + v95;
-    let v97 = S::select(b0, v96, S::constant(0.0));
-    let v98 = S::select(b3, v97, S::constant(0.0));
-    let v99 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v100 = v69 * v99;
-    let v101 = -v100;
-    let v102 = v77 * v99;
-    let v103 = v90 * v99;
-    let v104 = v12 * v103;
-    let v105 = -v104;
-    let v106 = S::select(b0, v105, S::constant(0.0));
-    let v107 = S::select(b3, v106, S::constant(0.0));
-    let v108 = S::select(b0, v34, S::constant(0.0));
-    let v109 = v20 * p_g;
-    let v110 = v108 + v109;
-    let v111 = v40 / v6;
-    let v112 = v110 + v111;
-    let v113 = v12 * v112;
-    let v114 = S::select(b0, v113, S::constant(0.0));
-    let v115 = S::select(b3, v114, S::constant(0.0));
-    let v116 = -v8;
-    let v117 = v20 * p_m;
-    let v118 = v12 * v117;
-    let v119 = S::select(b0, v118, S::constant(0.0));
-    let v120 = S::select(b3, v119, S::constant(0.0));
-    let v121 = v10 * tau;
-    let v122 = v0 * v121;
-    let v123 = v69 * v122;
-    let v124 = S::select(b0, v123, S::constant(0.0));
-    let v125 = v77 * v122;
-    let v126 = v2 * tau;
-    let v127 = p_omega * v126;
-    let v128 = v127 + v10;
-    let v129 = v0 * v128;
-    let v130 = x_p_theta * v129;
-    let v131 = v130 / v6;
-    let v132 = v125 - v131;
-    let v133 = -v132;
-    let v134 = S::select(b0, v133, S::constant(0.0));
-    let v135 = v20 * v129;
-    let v136 = S::select(b0, v135, S::constant(0.0));
-    let v137 = v8 * v129;
-    let v138 = -v137;
-    let v139 = S::select(b0, v138, S::constant(0.0));
-    let v140 = S::select(b0, v137, S::constant(0.0));
-    let v141 = S::select(b1, v139, v140);
-    let v142 = p_omega * v121;
-    let v143 = v2 - v142;
-    let v144 = p_omega * v143;
-    let v145 = v32 + v144;
-    let v146 = v0 * v145;
-    let v147 = p_m * v146;
-    let v148 = v90 * v122;
-    let v149 = v147 + v148;
-    let v150 = v12 * v149;
-    let v151 = S::select(b0, v150, S::constant(0.0));
-    let v152 = v43 * v129;
-    let v153 = v151 + v152;
-    let v154 = S::select(b0, v153, S::constant(0.0));
-    let v155 = S::select(b3, v154, S::constant(0.0));
+    let v49 = S::select(b1, v47, v48);
+    let v50 = v35 * v8;
+    let v51 = v11 * v50;
+    let v52 = -v51;
+    let v53 = S::select(b0, v52, S::constant(0.0));
+    let v54 = S::select(b3, v53, S::constant(0.0));
+    let v55 = S::constant(1.0) / v6;
+    let v56 = v11 / v6;
+    let v57 = S::select(b0, v56, S::constant(0.0));
+    let v58 = -v9;
+    let v59 = S::select(b1, v9, v58);
+    let v60 = x_p_theta + x_p_theta;
+    let v61 = p_m * v60;
+    let v62 = v61 / v6;
+    let v63 = v11 * v62;
+    let v64 = S::select(b0, v63, S::constant(0.0));
+    let v65 = S::select(b3, v64, S::constant(0.0));
+    let v66 = v7 / v6;
+    let v67 = S::constant(0.5) * v4;
+    let v68 = v66 * v67;
+    let v69 = -v68;
+    let v70 = S::select(b0, v69, S::constant(0.0));
+    let v71 = S::constant(0.5) * v10;
+    let v72 = x_p_theta * v71;
+    let v73 = v72 / v6;
+    let v74 = v15 / v6;
+    let v75 = v74.mul_add(v67, v73);
+    let v76 = S::select(b0, v75, S::constant(0.0));
+    let v77 = v9 * v71;
+    let v78 = S::select(b0, v77, S::constant(0.0));
+    let v79 = v8 * v71;
+    let v80 = -v79;
+    let v81 = S::select(b0, v80, S::constant(0.0));
+    let v82 = S::select(b0, v79, S::constant(0.0));
+    let v83 = S::select(b1, v81, v82);
+    let v84 = S::constant(0.5) * v31;
+    let v85 = p_m * v84;
+    let v86 = v39 / v6;
+    let v87 = v86 * v67;
+    let v88 = v85 - v87;
+    let v89 = v11 * v88;
+    let v90 = S::select(b0, v89, S::constant(0.0));
+    let v91 = v40.mul_add(v71, v90);
+    let v92 = S::select(b0, v91, S::constant(0.0));
+    let v93 = S::select(b3, v92, S::constant(0.0));
+    let v94 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v95 = v66 * v94;
+    let v96 = -v95;
+    let v97 = v74 * v94;
+    let v98 = v86 * v94;
+    let v99 = v11 * v98;
+    let v100 = -v99;
+    let v101 = S::select(b0, v100, S::constant(0.0));
+    let v102 = S::select(b3, v101, S::constant(0.0));
+    let v103 = S::select(b0, v32, S::constant(0.0));
+    let v104 = v9.mul_add(p_g, v103);
+    let v105 = v37 / v6;
+    let v106 = v104 + v105;
+    let v107 = v11 * v106;
+    let v108 = S::select(b0, v107, S::constant(0.0));
+    let v109 = S::select(b3, v108, S::constant(0.0));
+    let v110 = -v8;
+    let v111 = v9 * p_m;
+    let v112 = v11 * v111;
+    let v113 = S::select(b0, v112, S::constant(0.0));
+    let v114 = S::select(b3, v113, S::constant(0.0));
+    let v115 = v3 * tau;
+    let v116 = v0 * v115;
+    let v117 = v66 * v116;
+    let v118 = S::select(b0, v117, S::constant(0.0));
+    let v119 = v2 * tau;
+    let v120 = p_omega.mul_add(v119, v3);
+    let v121 = v0 * v120;
+    let v122 = x_p_theta * v121;
+    let v123 = v122 / v6;
+    let v124 = v74.mul_add(v116, -v123);
+    let v125 = -v124;
+    let v126 = S::select(b0, v125, S::constant(0.0));
+    let v127 = v9 * v121;
+    let v128 = S::select(b0, v127, S::constant(0.0));
+    let v129 = v8 * v121;
+    let v130 = -v129;
+    let v131 = S::select(b0, v130, S::constant(0.0));
+    let v132 = S::select(b0, v129, S::constant(0.0));
+    let v133 = S::select(b1, v131, v132);
+    let v134 = (-p_omega).mul_add(v115, v2);
+    let v135 = p_omega.mul_add(v134, v30);
+    let v136 = v0 * v135;
+    let v137 = p_m * v136;
+    let v138 = v86.mul_add(v116, v137);
+    let v139 = v11 * v138;
+    let v140 = S::select(b0, v139, S::constant(0.0));
+    let v141 = v40.mul_add(v121, v140);
+    let v142 = S::select(b0, v141, S::constant(0.0));
+    let v143 = S::select(b3, v142, S::constant(0.0));
     let mut dflow = [[S::constant(0.0); STATES]; C];
     let mut dintegrands = [[S::constant(0.0); INTEGRALS]; C];
     let results = dflow.iter_mut().zip(dintegrands.iter_mut());
@@ -1970,20 +1868,60 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
         let &[dx_q_theta, dx_p_theta] = dx;
         let &[dp_l_s, dp_l_b, dp_m, dp_g, _, dp_omega] = dp;
         *dflow = [
-            v58 * dx_p_theta + v73 * dp_l_s + v101 * dp_l_b + v124 * dp_omega,
-            v48 * dx_q_theta + v60 * dx_p_theta + v80 * dp_l_s + v102 * dp_l_b
-                + v116 * dp_g + v134 * dp_omega,
+            v118
+                .mul_add(
+                    dp_omega,
+                    v96.mul_add(dp_l_b, v70.mul_add(dp_l_s, v55 * dx_p_theta)),
+                ),
+            v126
+                .mul_add(
+                    dp_omega,
+                    v110
+                        .mul_add(
+                            dp_g,
+                            v97
+                                .mul_add(
+                                    dp_l_b,
+                                    v76
+                                        .mul_add(dp_l_s, v57.mul_add(dx_p_theta, v45 * dx_q_theta)),
+                                ),
+                        ),
+                ),
         ];
         *dintegrands = [
-            v49 * dx_q_theta + v8 * dx_p_theta + v82 * dp_l_s + v136 * dp_omega,
-            v52 * dx_q_theta + v62 * dx_p_theta + v87 * dp_l_s + v141 * dp_omega,
-            v57 * dx_q_theta + v68 * dx_p_theta + v98 * dp_l_s + v107 * dp_l_b
-                + v115 * dp_m + v120 * dp_g + v155 * dp_omega,
+            v128
+                .mul_add(
+                    dp_omega,
+                    v78.mul_add(dp_l_s, v8.mul_add(dx_p_theta, v46 * dx_q_theta)),
+                ),
+            v133
+                .mul_add(
+                    dp_omega,
+                    v83.mul_add(dp_l_s, v59.mul_add(dx_p_theta, v49 * dx_q_theta)),
+                ),
+            v143
+                .mul_add(
+                    dp_omega,
+                    v114
+                        .mul_add(
+                            dp_g,
+                            v109
+                                .mul_add(
+                                    dp_m,
+                                    v102
+                                        .mul_add(
+                                            dp_l_b,
+                                            v93
+                                                .mul_add(dp_l_s, v65.mul_add(dx_p_theta, v54 * dx_q_theta)),
+                                        ),
+                                ),
+                        ),
+                ),
         ];
     }
     model::Integrated {
-        flow: [v7, v18],
-        integrands: [v24, v31, v46],
+        flow: [v7, v17],
+        integrands: [v22, v29, v43],
         dflow,
         dintegrands,
     }
@@ -1991,7 +1929,7 @@ fn tangent_integrated_stance<S: scalar::Scalar, const C: usize>(
 
 /// The integrands and their derivatives along each direction.
 ///
-/// Once: 27 additions, 50 multiplications, 5 divisions, 4 function calls, 35 selections. A column, at most: 12 additions, 15 multiplications.
+/// Once: 18 additions, 41 multiplications, 9 fused multiply-adds, 5 divisions, 2 function calls, 35 selections. A column: 3 multiplications, 12 fused multiply-adds.
 #[inline]
 fn tangent_integrands<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
@@ -2005,127 +1943,116 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
     let &[p_l_s, p_l_b, p_m, p_g, _, p_omega] = env.p;
     let tau = env.tau;
     let &[x_q_theta, x_p_theta] = x;
-    let v0 = x_q_theta.sin();
-    let v1 = x_p_theta * v0;
-    let v2 = p_l_s / S::constant(2.0);
-    let v3 = p_omega * tau;
-    let v4 = v3.sin();
-    let v5 = v4 * p_omega;
-    let v6 = v2 * v5;
-    let v7 = x_q_theta.cos();
-    let v8 = v6 * v7;
-    let v9 = -v8;
-    let v10 = S::select(b0, v9, S::constant(0.0));
-    let v11 = v1 - v10;
-    let v12 = v6 * v0;
-    let v13 = -v12;
-    let v14 = S::select(b0, v13, S::constant(0.0));
-    let v15 = x_p_theta * v7;
-    let v16 = v14 + v15;
-    let v17 = -v16;
-    let v18 = S::select(b1, v16, v17);
-    let v19 = v3.cos();
-    let v20 = v19 * p_omega;
+    let (v0, v1) = x_q_theta.sin_cos();
+    let v2 = x_p_theta * v0;
+    let v3 = p_l_s / S::constant(2.0);
+    let v4 = p_omega * tau;
+    let (v5, v6) = v4.sin_cos();
+    let v7 = v5 * p_omega;
+    let v8 = v3 * v7;
+    let v9 = v8 * v1;
+    let v10 = -v9;
+    let v11 = S::select(b0, v10, S::constant(0.0));
+    let v12 = v2 - v11;
+    let v13 = v8 * v0;
+    let v14 = -v13;
+    let v15 = S::select(b0, v14, S::constant(0.0));
+    let v16 = x_p_theta * v1;
+    let v17 = v15 + v16;
+    let v18 = -v17;
+    let v19 = S::select(b1, v17, v18);
+    let v20 = v6 * p_omega;
     let v21 = p_omega * v20;
-    let v22 = v2 * v21;
+    let v22 = v3 * v21;
     let v23 = p_m * v22;
     let v24 = S::select(b0, v23, S::constant(0.0));
     let v25 = p_m * p_g;
-    let v26 = v25 * v7;
-    let v27 = v24 + v26;
-    let v28 = x_p_theta * x_p_theta;
-    let v29 = p_m * v28;
-    let v30 = S::constant(1.0) + v19;
-    let v31 = v2 * v30;
-    let v32 = p_l_b + v31;
-    let v33 = S::select(b0, v32, p_l_b);
-    let v34 = v29 / v33;
-    let v35 = v27 + v34;
-    let v36 = v35 * v6;
-    let v37 = S::select(b0, v36, S::constant(0.0));
-    let v38 = S::select(b3, v37, S::constant(0.0));
-    let v39 = v15 + v14;
-    let v40 = v10 - v1;
-    let v41 = -v40;
-    let v42 = S::select(b1, v40, v41);
-    let v43 = v25 * v0;
-    let v44 = v6 * v43;
-    let v45 = -v44;
-    let v46 = S::select(b0, v45, S::constant(0.0));
-    let v47 = S::select(b3, v46, S::constant(0.0));
-    let v48 = -v7;
-    let v49 = S::select(b1, v7, v48);
-    let v50 = x_p_theta + x_p_theta;
-    let v51 = p_m * v50;
-    let v52 = v51 / v33;
-    let v53 = v6 * v52;
-    let v54 = S::select(b0, v53, S::constant(0.0));
-    let v55 = S::select(b3, v54, S::constant(0.0));
-    let v56 = S::constant(0.5) * v5;
-    let v57 = v7 * v56;
-    let v58 = S::select(b0, v57, S::constant(0.0));
-    let v59 = v0 * v56;
-    let v60 = -v59;
-    let v61 = S::select(b0, v60, S::constant(0.0));
-    let v62 = S::select(b0, v59, S::constant(0.0));
-    let v63 = S::select(b1, v61, v62);
-    let v64 = S::constant(0.5) * v21;
-    let v65 = p_m * v64;
-    let v66 = v34 / v33;
-    let v67 = S::constant(0.5) * v30;
-    let v68 = v66 * v67;
-    let v69 = v65 - v68;
-    let v70 = v6 * v69;
+    let v26 = v25.mul_add(v1, v24);
+    let v27 = x_p_theta * x_p_theta;
+    let v28 = p_m * v27;
+    let v29 = S::constant(1.0) + v6;
+    let v30 = v3.mul_add(v29, p_l_b);
+    let v31 = S::select(b0, v30, p_l_b);
+    let v32 = v28 / v31;
+    let v33 = v26 + v32;
+    let v34 = v33 * v8;
+    let v35 = S::select(b0, v34, S::constant(0.0));
+    let v36 = S::select(b3, v35, S::constant(0.0));
+    let v37 = v16 + v15;
+    let v38 = v11 - v2;
+    let v39 = -v38;
+    let v40 = S::select(b1, v38, v39);
+    let v41 = v25 * v0;
+    let v42 = v8 * v41;
+    let v43 = -v42;
+    let v44 = S::select(b0, v43, S::constant(0.0));
+    let v45 = S::select(b3, v44, S::constant(0.0));
+    let v46 = -v1;
+    let v47 = S::select(b1, v1, v46);
+    let v48 = x_p_theta + x_p_theta;
+    let v49 = p_m * v48;
+    let v50 = v49 / v31;
+    let v51 = v8 * v50;
+    let v52 = S::select(b0, v51, S::constant(0.0));
+    let v53 = S::select(b3, v52, S::constant(0.0));
+    let v54 = S::constant(0.5) * v7;
+    let v55 = v1 * v54;
+    let v56 = S::select(b0, v55, S::constant(0.0));
+    let v57 = v0 * v54;
+    let v58 = -v57;
+    let v59 = S::select(b0, v58, S::constant(0.0));
+    let v60 = S::select(b0, v57, S::constant(0.0));
+    let v61 = S::select(b1, v59, v60);
+    let v62 = S::constant(0.5) * v21;
+    let v63 = p_m * v62;
+    let v64 = v32 / v31;
+    let v65 = S::constant(0.5) * v29;
+    let v66 = v64 * v65;
+    let v67 = v63 - v66;
+    let v68 = v8 * v67;
+    let v69 = S::select(b0, v68, S::constant(0.0));
+    let v70 = v33.mul_add(v54, v69);
     let v71 = S::select(b0, v70, S::constant(0.0));
-    let v72 = v35 * v56;
-    let v73 = v71 + v72;
-    let v74 = S::select(b0, v73, S::constant(0.0));
-    let v75 = S::select(b3, v74, S::constant(0.0));
-    let v76 = S::select(b0, S::constant(1.0), S::constant(1.0));
-    let v77 = v66 * v76;
-    let v78 = v6 * v77;
-    let v79 = -v78;
-    let v80 = S::select(b0, v79, S::constant(0.0));
-    let v81 = S::select(b3, v80, S::constant(0.0));
-    let v82 = S::select(b0, v22, S::constant(0.0));
-    let v83 = v7 * p_g;
-    let v84 = v82 + v83;
-    let v85 = v28 / v33;
-    let v86 = v84 + v85;
-    let v87 = v6 * v86;
+    let v72 = S::select(b3, v71, S::constant(0.0));
+    let v73 = S::select(b0, S::constant(1.0), S::constant(1.0));
+    let v74 = v64 * v73;
+    let v75 = v8 * v74;
+    let v76 = -v75;
+    let v77 = S::select(b0, v76, S::constant(0.0));
+    let v78 = S::select(b3, v77, S::constant(0.0));
+    let v79 = S::select(b0, v22, S::constant(0.0));
+    let v80 = v1.mul_add(p_g, v79);
+    let v81 = v27 / v31;
+    let v82 = v80 + v81;
+    let v83 = v8 * v82;
+    let v84 = S::select(b0, v83, S::constant(0.0));
+    let v85 = S::select(b3, v84, S::constant(0.0));
+    let v86 = v1 * p_m;
+    let v87 = v8 * v86;
     let v88 = S::select(b0, v87, S::constant(0.0));
     let v89 = S::select(b3, v88, S::constant(0.0));
-    let v90 = v7 * p_m;
-    let v91 = v6 * v90;
-    let v92 = S::select(b0, v91, S::constant(0.0));
-    let v93 = S::select(b3, v92, S::constant(0.0));
-    let v94 = v19 * tau;
-    let v95 = p_omega * v94;
-    let v96 = v95 + v4;
-    let v97 = v2 * v96;
-    let v98 = v7 * v97;
-    let v99 = S::select(b0, v98, S::constant(0.0));
-    let v100 = v0 * v97;
-    let v101 = -v100;
-    let v102 = S::select(b0, v101, S::constant(0.0));
-    let v103 = S::select(b0, v100, S::constant(0.0));
-    let v104 = S::select(b1, v102, v103);
-    let v105 = v4 * tau;
-    let v106 = p_omega * v105;
-    let v107 = v19 - v106;
-    let v108 = p_omega * v107;
-    let v109 = v20 + v108;
-    let v110 = v2 * v109;
-    let v111 = p_m * v110;
-    let v112 = v2 * v105;
-    let v113 = v66 * v112;
-    let v114 = v111 + v113;
-    let v115 = v6 * v114;
-    let v116 = S::select(b0, v115, S::constant(0.0));
-    let v117 = v35 * v97;
-    let v118 = v116 + v117;
-    let v119 = S::select(b0, v118, S::constant(0.0));
-    let v120 = S::select(b3, v119, S::constant(0.0));
+    let v90 = v6 * tau;
+    let v91 = p_omega.mul_add(v90, v5);
+    let v92 = v3 * v91;
+    let v93 = v1 * v92;
+    let v94 = S::select(b0, v93, S::constant(0.0));
+    let v95 = v0 * v92;
+    let v96 = -v95;
+    let v97 = S::select(b0, v96, S::constant(0.0));
+    let v98 = S::select(b0, v95, S::constant(0.0));
+    let v99 = S::select(b1, v97, v98);
+    let v100 = v5 * tau;
+    let v101 = (-p_omega).mul_add(v100, v6);
+    let v102 = p_omega.mul_add(v101, v20);
+    let v103 = v3 * v102;
+    let v104 = p_m * v103;
+    let v105 = v3 * v100;
+    let v106 = v64.mul_add(v105, v104);
+    let v107 = v8 * v106;
+    let v108 = S::select(b0, v107, S::constant(0.0));
+    let v109 = v33.mul_add(v92, v108);
+    let v110 = S::select(b0, v109, S::constant(0.0));
+    let v111 = S::select(b3, v110, S::constant(0.0));
     let mut products = [[S::constant(0.0); INTEGRALS]; C];
     let directions = along.dx.iter().zip(along.dk).zip(along.dp).zip(along.dt);
     for (
@@ -2133,13 +2060,37 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
         (((&[dx_q_theta, dx_p_theta], _), &[dp_l_s, dp_l_b, dp_m, dp_g, _, dp_omega]), _),
     ) in products.iter_mut().zip(directions) {
         *product = [
-            v39 * dx_q_theta + v0 * dx_p_theta + v58 * dp_l_s + v99 * dp_omega,
-            v42 * dx_q_theta + v49 * dx_p_theta + v63 * dp_l_s + v104 * dp_omega,
-            v47 * dx_q_theta + v55 * dx_p_theta + v75 * dp_l_s + v81 * dp_l_b
-                + v89 * dp_m + v93 * dp_g + v120 * dp_omega,
+            v94
+                .mul_add(
+                    dp_omega,
+                    v56.mul_add(dp_l_s, v0.mul_add(dx_p_theta, v37 * dx_q_theta)),
+                ),
+            v99
+                .mul_add(
+                    dp_omega,
+                    v61.mul_add(dp_l_s, v47.mul_add(dx_p_theta, v40 * dx_q_theta)),
+                ),
+            v111
+                .mul_add(
+                    dp_omega,
+                    v89
+                        .mul_add(
+                            dp_g,
+                            v85
+                                .mul_add(
+                                    dp_m,
+                                    v78
+                                        .mul_add(
+                                            dp_l_b,
+                                            v72
+                                                .mul_add(dp_l_s, v53.mul_add(dx_p_theta, v45 * dx_q_theta)),
+                                        ),
+                                ),
+                        ),
+                ),
         ];
     }
-    ([v11, v18, v38], products)
+    ([v12, v19, v36], products)
 }
 
 /// NaN.

@@ -3,7 +3,7 @@
 use super::{Context, names, text};
 use crate::casadi::Program;
 use crate::casadi::exchange::Input;
-use crate::casadi::program::{Binary, Logic, Operation, Unary, Value};
+use crate::casadi::program::{Binary, Fused, Logic, Operation, Unary, Value};
 use crate::ir::Symbol;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -17,6 +17,8 @@ pub(super) struct Body<'a> {
     uses: Vec<TokenStream>,
     /// The shared values.
     statements: Vec<TokenStream>,
+    /// How many names they have.
+    names: usize,
     /// Inputs that occur.
     inputs: BTreeSet<Input>,
     /// Nonzero derivatives by row and column.
@@ -26,13 +28,41 @@ pub(super) struct Body<'a> {
 impl<'a> Body<'a> {
     pub(super) fn new(context: &'a Context<'a>, program: &'a Program) -> Self {
         let entries = program.jacobian.iter().map(|entry| ((entry.row, entry.column), entry.value)).collect();
-        let mut body =
-            Self { context, program, uses: Vec::new(), statements: Vec::new(), inputs: BTreeSet::new(), entries };
-        for &operation in &program.operations {
-            let tokens = body.operation(operation);
+        let mut body = Self {
+            context,
+            program,
+            uses: Vec::new(),
+            statements: Vec::new(),
+            names: 0,
+            inputs: BTreeSet::new(),
+            entries,
+        };
+        let (pairs, mut known) = (program.pairs(), HashMap::new());
+        for (value, &operation) in program.operations.iter().enumerate() {
+            let tokens = match (known.remove(&value), pairs.get(&value)) {
+                (Some(tokens), _) => tokens,
+                (None, Some(&other)) => {
+                    let (tokens, others) = body.pair(operation);
+                    known.insert(other, others);
+                    tokens
+                }
+                (None, None) => body.operation(operation),
+            };
             body.uses.push(tokens);
         }
         body
+    }
+
+    /// Computes sine and cosine of the same angle together, given one of them; both as they are written, that one first.
+    fn pair(&mut self, operation: Operation) -> (TokenStream, TokenStream) {
+        let Operation::Unary(op, angle) = operation else { return (quote!(nan()), quote!(nan())) };
+        let n = self.names;
+        let angle = self.written(angle);
+        let (first, second) = (format_ident!("v{n}"), format_ident!("v{}", n + 1));
+        self.names += 2;
+        let (sine, cosine) = if op == Unary::Sin { (&first, &second) } else { (&second, &first) };
+        self.statements.push(quote!(let (#sine, #cosine) = #angle.sin_cos();));
+        (quote!(#first), quote!(#second))
     }
 
     /// How an operation's value is written; one that is computed gets a `let` first.
@@ -48,6 +78,23 @@ impl<'a> Body<'a> {
             }
             Operation::Unary(op, a) => unary(op, &arg(a)),
             Operation::Binary(op, a, b) => binary(op, &arg(a), &arg(b)),
+            Operation::Fused(Fused::MulAdd, a, b, c) => {
+                let (a, b, c) = (arg(a), arg(b), arg(c));
+                quote!(#a.mul_add(#b, #c))
+            }
+            Operation::Fused(Fused::MulSub, a, b, c) => {
+                let (a, b, c) = (arg(a), arg(b), self.negated(c));
+                quote!(#a.mul_add(#b, #c))
+            }
+            Operation::Fused(Fused::NegMulAdd, a, b, c) => {
+                // The sign of a constant costs nothing.
+                let (a, b) = if self.program.constant_value(b).is_some() { (b, a) } else { (a, b) };
+                let (negated, b, c) = (self.negated(a), arg(b), arg(c));
+                match self.program.constant_value(a) {
+                    Some(_) => quote!(#negated.mul_add(#b, #c)),
+                    None => quote!((#negated).mul_add(#b, #c)),
+                }
+            }
             Operation::Logic(op, a, b) => logic(op, &arg(a), &arg(b)),
             Operation::Not(a) => {
                 let a = arg(a);
@@ -58,9 +105,16 @@ impl<'a> Body<'a> {
                 quote!(S::select(#mask, #a, #b))
             }
         };
-        let name = format_ident!("v{}", self.statements.len());
+        let name = format_ident!("v{}", self.names);
+        self.names += 1;
         self.statements.push(quote!(let #name = #expression;));
         quote!(#name)
+    }
+
+    /// A value with the other sign.
+    fn negated(&self, value: Value) -> TokenStream {
+        let written = self.written(value);
+        self.program.constant_value(value).map_or_else(|| quote!(-#written), |number| constant(-number))
     }
 
     /// The shared values, one `let` each.

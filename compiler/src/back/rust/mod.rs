@@ -55,7 +55,7 @@ pub enum EmitError {
 struct Context<'a> {
     validated: &'a Validated,
     inputs: Vec<Input>,
-    programs: HashMap<Function, &'a Program>,
+    programs: HashMap<Function, Program>,
 }
 
 impl<'a> Context<'a> {
@@ -63,9 +63,9 @@ impl<'a> Context<'a> {
         self.validated.model()
     }
 
-    fn program(&self, quantity: Quantity, by: Columns) -> Result<&'a Program, EmitError> {
+    fn program(&self, quantity: Quantity, by: Columns) -> Result<&Program, EmitError> {
         let function = Function { quantity, by };
-        self.programs.get(&function).copied().ok_or_else(|| EmitError::Programs(format!("{function:?} is missing")))
+        self.programs.get(&function).ok_or_else(|| EmitError::Programs(format!("{function:?} is missing")))
     }
 }
 
@@ -78,7 +78,7 @@ pub fn emit(validated: &Validated, programs: &[(Function, Program)], options: &O
     let context = Context {
         validated,
         inputs: exchange::inputs(validated.model()),
-        programs: programs.iter().map(|(function, program)| (*function, program)).collect(),
+        programs: programs.iter().map(|(function, program)| (*function, program.fused())).collect(),
     };
     let mut items = preamble(&context, &runtime);
     items.push(info::info(&context, &options.fingerprint));

@@ -180,7 +180,7 @@ impl<'a> Products<'a> {
                 (None, _) => quote!(#written * #variation),
                 (Some(sum), Some(1.0)) => quote!(#sum + #variation),
                 (Some(sum), Some(-1.0)) => quote!(#sum - #variation),
-                (Some(sum), _) => quote!(#sum + #written * #variation),
+                (Some(sum), _) => quote!(#written.mul_add(#variation, #sum)),
             });
         }
         sum.unwrap_or_else(|| constant(0.0))
@@ -212,10 +212,17 @@ impl<'a> Products<'a> {
 
     /// Operation counts of the shared part, and of each column.
     fn counts(&self) -> String {
-        let entries = self.program.jacobian.len();
-        let rows = self.program.values.len();
-        let filled = (0..rows).filter(|&row| self.program.jacobian.iter().any(|e| e.row == row)).count();
-        let column = Counts { multiplications: entries, additions: entries - filled, ..Counts::default() };
-        format!("Once: {} A column, at most: {}", text::counts(self.program.counts()), text::counts(column))
+        let mut column = Counts::default();
+        for row in 0..self.program.values.len() {
+            for (i, entry) in self.program.jacobian.iter().filter(|entry| entry.row == row).enumerate() {
+                match (i, self.program.constant_value(entry.value)) {
+                    (0, Some(1.0)) => {}
+                    (_, Some(1.0 | -1.0)) => column.additions += 1,
+                    (0, _) => column.multiplications += 1,
+                    _ => column.fused += 1,
+                }
+            }
+        }
+        format!("Once: {} A column: {}", text::counts(self.program.counts()), text::counts(column))
     }
 }

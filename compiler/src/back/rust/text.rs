@@ -35,6 +35,7 @@ pub(super) fn counts(counts: Counts) -> String {
     let parts: Vec<String> = [
         (counts.additions, "addition"),
         (counts.multiplications, "multiplication"),
+        (counts.fused, "fused multiply-add"),
         (counts.divisions, "division"),
         (counts.functions, "function call"),
         (counts.selections, "selection"),
