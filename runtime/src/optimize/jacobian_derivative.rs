@@ -1,10 +1,10 @@
 //! Derivative of the return map's Jacobian with respect to parameters and coordinates.
 //!
-//! Fourth-order differences of the *exact* Jacobian, in scaled unknowns; second-order sensitivities, once the runtime
-//! has them, replace the body of [`jacobian_derivative`] and nothing else.
+//! Second-order sensitivities of the map; where it has none (mass matrices, ties), fourth-order differences of the *exact*
+//! Jacobian, in scaled unknowns.
 
 use super::program::{Failure, Point, Program};
-use crate::return_map::Sensitivity;
+use crate::return_map::{Points, Sensitivity};
 use nalgebra::{DMatrix, DVector};
 
 /// Step in scaled unknowns: truncation h^4 and rounding (error of the Jacobian)/h meet near here.
@@ -18,8 +18,33 @@ const FORWARD: [(f64, f64); 5] = [(0.0, -25.0), (1.0, 48.0), (2.0, -36.0), (3.0,
 ///
 /// Stencils stay within the bounds of the parameters and turn to one side where the map stops.
 pub(super) fn jacobian_derivative(program: &Program<'_>, point: &Point) -> Result<Vec<DMatrix<f64>>, Failure> {
+    if let Some(exact) = second_order(program, point)? {
+        return Ok(exact);
+    }
     let count = program.variables.free.len() + program.variables.nominal.len();
     (0..count).map(|j| along(program, &point.u, j)).collect()
+}
+
+/// The same by second-order sensitivities; `None` where there are none.
+fn second_order(program: &Program<'_>, point: &Point) -> Result<Option<Vec<DMatrix<f64>>>, Failure> {
+    let (variables, u) = (&program.variables, point.u.as_slice());
+    let (parameters, section) = (variables.parameters(u, &program.base), variables.section(u));
+    let Some(plan) = program.plan(&parameters, &section)? else {
+        return Ok(None);
+    };
+    let chosen: Vec<usize> = variables.free.iter().map(|free| free.parameter).collect();
+    let at = Points { coordinates: &section, parameters: &parameters };
+    let Some(exact) = program.problem.map.second_order(&plan, at, &chosen)? else {
+        return Ok(None);
+    };
+    let (m, d) = (chosen.len(), section.len());
+    // Unknowns are parameters, then coordinates; directions of the sensitivities the other way round.
+    let derivative = |j: usize| {
+        let direction = if j < m { d + j } else { j - m };
+        exact.second.get(direction).map(|second| program.scaled_jacobian(second) * variables.unit(j))
+    };
+    let all: Option<Vec<_>> = (0..m + d).map(derivative).collect();
+    Ok(all.filter(|all| all.iter().all(|matrix| matrix.iter().all(|v| v.is_finite()))))
 }
 
 fn along(program: &Program<'_>, u: &DVector<f64>, j: usize) -> Result<DMatrix<f64>, Failure> {

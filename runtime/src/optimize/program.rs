@@ -8,7 +8,7 @@ use super::jury;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 use super::variables::Variables;
 use crate::orbit::{multipliers, spectral_radius};
-use crate::return_map::{MapOutcome, MapRequest, MapResult, RequestError, Sensitivity, Stop};
+use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
 
 /// Where an inequality row comes from.
@@ -158,6 +158,20 @@ impl<'a> Program<'a> {
                 if finite { Ok(*map) } else { Err(Failure::NotFinite("the return map".to_owned())) }
             }
         }
+    }
+
+    /// The plan of the map at a point, if there is one for a single map.
+    pub(super) fn plan(&self, parameters: &[f64], section: &[f64]) -> Result<Option<Plan>, Failure> {
+        let (_, plan) = self.problem.map.plan(&MapRequest {
+            coordinates: section,
+            parameters,
+            memory: &self.problem.memory,
+            period: self.problem.period,
+            sensitivity: Sensitivity::Coordinates,
+            measures: false,
+            accuracy: self.problem.settings.accuracy,
+        })?;
+        Ok(plan)
     }
 
     /// All values at u.

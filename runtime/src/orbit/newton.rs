@@ -30,7 +30,7 @@ pub struct GaitRequest<'a> {
     pub iteration_limit: usize,
     /// Whether functionals and measures of the gait are wanted.
     pub measures: bool,
-    /// Into how many segments a map is cut: 1 is single shooting, more are multiple shooting ([`super::shooting`]), for models
+    /// Into how many segments a map is cut: 1 is single shooting, more are multiple shooting, for models
     /// without a mass matrix and period 1.
     pub segments: usize,
 }
