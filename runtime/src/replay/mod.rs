@@ -9,6 +9,7 @@
 mod batch;
 mod course;
 mod landing;
+mod mesh;
 mod moving;
 mod number;
 mod pieces;

@@ -10,7 +10,7 @@
 //! without fused multiply-add.
 
 use super::{FUSED, Scalar};
-use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 use core::hint::select_unpredictable;
 
 /// The largest magnitude that is reduced here: k times the last part of pi/2 is still far below the last place of r.
@@ -62,17 +62,27 @@ pub(super) trait Register: Scalar {
 #[inline]
 pub(super) fn sin_cos<R: Register>(angle: R) -> (R, R) {
     let magnitude = angle.abs();
+    if FUSED && magnitude.within(FRAC_PI_4) {
+        // No right angle to take away: the same numbers sooner, and legs of machines seldom lean further.
+        return kernel(angle);
+    }
     if !FUSED || !magnitude.within(LARGEST) {
         return angle.by_library();
     }
     let quadrant = magnitude.mul_add(R::constant(FRAC_2_PI), R::constant(ROUNDING));
     let k = quadrant - R::constant(ROUNDING);
     let r = RIGHT_ANGLE.iter().fold(magnitude, |r, &part| k.mul_add(R::constant(-part), r));
+    let (sine, cosine) = kernel(r);
+    R::turned(angle, quadrant, sine, cosine)
+}
+
+/// Sine and cosine of |r| <= pi/4.
+#[inline]
+fn kernel<R: Scalar>(r: R) -> (R, R) {
     let square = r * r;
     let sine = (square * r).mul_add(polynomial(SINE, square), r);
     let half = (-square).mul_add(polynomial(COSINE, square), R::constant(0.5));
-    let cosine = (-square).mul_add(half, R::constant(1.0));
-    R::turned(angle, quadrant, sine, cosine)
+    (sine, (-square).mul_add(half, R::constant(1.0)))
 }
 
 /// A polynomial of degree 5.
