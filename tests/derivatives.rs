@@ -24,6 +24,36 @@ fn every_generated_derivative_has_twelve_digits() {
     }
 }
 
+/// What depends only on the clock and parameters, taken out and put in again, changes nothing but the last places.
+#[test]
+fn terms_of_the_clock_and_the_rest_make_the_whole_flow() {
+    let mut modes = 0;
+    for entry in MODELS.iter().filter(|entry| entry.compiled.info().explicit) {
+        let loaded = embedded(entry).unwrap();
+        let mut points = Points::new(&loaded, 11);
+        let points: Vec<_> = (0..200).map(|_| points.next_point()).collect();
+        for mode in 0..entry.compiled.info().modes.len() {
+            modes += 1;
+            let at = |function: Function, point: &Point<'_>| -> Vec<f64> {
+                let evaluation = entry.compiled.probe(function, point).unwrap();
+                let columns = evaluation.derivatives.into_iter().flat_map(|(_, columns)| columns.concat());
+                evaluation.value.into_iter().chain(columns).collect()
+            };
+            let whole: Vec<_> = points.iter().map(|point| at(Function::Variational(mode), &point.borrow())).collect();
+            let parts: Vec<_> = points.iter().map(|point| at(Function::Staged(mode), &point.borrow())).collect();
+            for i in 0..whole[0].len() {
+                let finite = |row: &&Vec<f64>| row[i].is_finite();
+                let scale = whole.iter().filter(finite).map(|row| row[i].abs()).fold(0.0, f64::max);
+                for (whole, parts) in whole.iter().zip(&parts) {
+                    let close = (whole[i] - parts[i]).abs() <= 8.0 * f64::EPSILON * scale;
+                    assert!(close || !whole[i].is_finite(), "{}: {} {}", loaded.spec.name, whole[i], parts[i]);
+                }
+            }
+        }
+    }
+    assert!(modes > 5);
+}
+
 /// A mass matrix that is singular where maps begin is compared there, and not only where it is regular.
 #[test]
 fn points_include_those_where_a_mass_matrix_is_singular() {

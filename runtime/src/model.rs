@@ -11,7 +11,7 @@
 //! matrices; the explicit f is there for models without a mass matrix ([`ModelInfo::explicit`]). Integrands and
 //! observables may depend on rates: a model with an explicit f puts it in their place, other models take k as an argument.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// What a model function depends on besides the state. SI units.
 #[derive(Clone, Copy, Debug)]
@@ -145,6 +145,25 @@ pub trait Model<const N: usize, const P: usize, const Q: usize>: Copy + Default 
         mode: usize,
         x: &[S; N],
         dx: &[[S; N]; C],
+        env: &Env<'_, S, P>,
+    ) -> ([S; N], [[S; N]; C]);
+
+    /// Terms of the flow and of its derivatives in the state that depend only on the clock, on parameters, memory and
+    /// selectors.
+    type Clock<S: Scalar>: Copy + Send + Sync;
+
+    /// The terms of a mode at `env`.
+    fn clock<S: Scalar>(mode: usize, env: &Env<'_, S, P>) -> Self::Clock<S>;
+
+    /// The terms in one lane; NaN where there is no such lane.
+    fn clock_lane<S: Real>(clock: &Self::Clock<S>, lane: usize) -> Self::Clock<f64>;
+
+    /// What [`Self::variational`] gives, to rounding, from the terms at the same `env`.
+    fn variational_at<S: Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; N],
+        dx: &[[S; N]; C],
+        clock: &Self::Clock<S>,
         env: &Env<'_, S, P>,
     ) -> ([S; N], [[S; N]; C]);
 

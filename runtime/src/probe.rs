@@ -14,6 +14,8 @@ pub enum Function {
     Flow(usize),
     /// The same by `variational`: derivatives in the state only.
     Variational(usize),
+    /// The same by `variational_at`, from the terms of `clock`.
+    Staged(usize),
     /// f and integrands of a mode (states, then integrals), by `integrated_variational`.
     Integrated(usize),
     /// F of a mode.
@@ -116,7 +118,8 @@ pub fn functions(info: &ModelInfo) -> Vec<Function> {
     let mut all = Vec::new();
     for mode in modes.clone() {
         if info.explicit {
-            all.extend([Function::Flow(mode), Function::Variational(mode), Function::Integrated(mode)]);
+            all.extend([Function::Flow(mode), Function::Variational(mode), Function::Staged(mode)]);
+            all.push(Function::Integrated(mode));
         }
         all.extend([Function::Residual(mode), Function::Linearised(mode)]);
         if integrals(info) > 0 {

@@ -25,6 +25,7 @@ impl<'a> Reference<'a> {
         match function {
             Function::Flow(i) => format!("flow of {}", mode(i)),
             Function::Variational(i) => format!("variational flow of {}", mode(i)),
+            Function::Staged(i) => format!("variational flow of {} from terms of the clock", mode(i)),
             Function::Integrated(i) => format!("flow and integrands of {}", mode(i)),
             Function::Residual(i) => format!("residual of {}", mode(i)),
             Function::Linearised(i) => format!("linearised residual of {}", mode(i)),
@@ -46,7 +47,8 @@ impl<'a> Reference<'a> {
         let flow = |i: usize| self.spec.modes.get(i).map_or_else(Vec::new, |m| m.flow.clone());
         let section = self.spec.section.as_ref();
         match function {
-            Function::Flow(i) | Function::Variational(i) | Function::Residual(i) | Function::Linearised(i) => flow(i),
+            Function::Flow(i) | Function::Variational(i) | Function::Staged(i) => flow(i),
+            Function::Residual(i) | Function::Linearised(i) => flow(i),
             Function::Integrands(_) => self.integrands(),
             Function::Integrated(i) => [flow(i), self.integrands()].concat(),
             Function::Switch(i) => self.spec.switches.get(i).map(|s| s.expr).into_iter().collect(),

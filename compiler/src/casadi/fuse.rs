@@ -34,7 +34,7 @@ impl Program {
     }
 
     /// How often each value is used, by other values and as a result.
-    fn uses(&self) -> Vec<usize> {
+    pub(super) fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.operations.len()];
         let operands = self.operations.iter().flat_map(|operation| operation.operands());
         let results = self.values.iter().copied().chain(self.jacobian.iter().map(|entry| entry.value));

@@ -9,6 +9,7 @@ pub mod environment;
 pub mod exchange;
 pub mod functions;
 mod fuse;
+pub mod hoist;
 pub mod program;
 pub mod run;
 pub mod tape;

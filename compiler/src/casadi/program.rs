@@ -74,6 +74,8 @@ pub enum Operation {
     Input(usize),
     /// An input that is a truth value, by its position.
     Truth(usize),
+    /// A number that was computed before, by its position among the terms of [`super::hoist::Hoisted::clock`].
+    Term(usize),
     /// Number from number.
     Unary(Unary, Value),
     /// Number from two numbers.
@@ -97,12 +99,26 @@ impl Operation {
     /// What it is computed from.
     pub fn operands(self) -> impl Iterator<Item = Value> {
         let [a, b, c] = match self {
-            Self::Constant(_) | Self::Input(_) | Self::Truth(_) => [None; 3],
+            Self::Constant(_) | Self::Input(_) | Self::Truth(_) | Self::Term(_) => [None; 3],
             Self::Unary(_, a) | Self::Not(a) => [Some(a), None, None],
             Self::Binary(_, a, b) | Self::Logic(_, a, b) => [Some(a), Some(b), None],
             Self::Fused(_, a, b, c) | Self::Select(a, b, c) => [Some(a), Some(b), Some(c)],
         };
         [a, b, c].into_iter().flatten()
+    }
+
+    /// The same operation on other values.
+    #[must_use]
+    pub fn with_operands(self, new: impl Fn(Value) -> Value) -> Self {
+        match self {
+            Self::Constant(_) | Self::Input(_) | Self::Truth(_) | Self::Term(_) => self,
+            Self::Unary(op, a) => Self::Unary(op, new(a)),
+            Self::Binary(op, a, b) => Self::Binary(op, new(a), new(b)),
+            Self::Fused(op, a, b, c) => Self::Fused(op, new(a), new(b), new(c)),
+            Self::Logic(op, a, b) => Self::Logic(op, new(a), new(b)),
+            Self::Not(a) => Self::Not(new(a)),
+            Self::Select(a, b, c) => Self::Select(new(a), new(b), new(c)),
+        }
     }
 
     /// Whether it is a truth value, not a number.
@@ -185,7 +201,7 @@ impl Program {
         let mut operations = Vec::new();
         for ((&operation, &live), slot) in self.operations.iter().zip(&live).zip(0..) {
             if live {
-                let renumbered = renumber(operation, &number);
+                let renumbered = operation.with_operands(|value| number.get(value).copied().unwrap_or_default());
                 if let Some(new) = number.get_mut(slot) {
                     *new = operations.len();
                 }
@@ -232,19 +248,6 @@ impl Program {
             }
         }
         counts
-    }
-}
-
-fn renumber(operation: Operation, number: &[usize]) -> Operation {
-    let new = |value: Value| number.get(value).copied().unwrap_or_default();
-    match operation {
-        Operation::Constant(_) | Operation::Input(_) | Operation::Truth(_) => operation,
-        Operation::Unary(op, a) => Operation::Unary(op, new(a)),
-        Operation::Binary(op, a, b) => Operation::Binary(op, new(a), new(b)),
-        Operation::Fused(op, a, b, c) => Operation::Fused(op, new(a), new(b), new(c)),
-        Operation::Logic(op, a, b) => Operation::Logic(op, new(a), new(b)),
-        Operation::Not(a) => Operation::Not(new(a)),
-        Operation::Select(a, b, c) => Operation::Select(new(a), new(b), new(c)),
     }
 }
 

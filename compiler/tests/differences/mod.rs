@@ -1,6 +1,8 @@
 //! Every derivative of a generated model at a point, against central differences of its values.
 #![allow(unreachable_pub, reason = "a module of a test")]
 
+mod lanes;
+
 use gaitc_runtime::model::{Directions, Env, Gradient, Jacobian, Model, RateGradient};
 
 /// Step of the central differences, and how far they may be off, relative to the larger of value and 1.
@@ -87,6 +89,7 @@ pub fn check<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
         check_residual::<M, N, P, Q>(mode, point);
         if M::INFO.explicit {
             check_flow::<M, N, P, Q>(mode, point);
+            lanes::check::<M, N, P, Q>(mode, point);
         }
     }
     for i in 0..M::INFO.switches.len() {

@@ -186,6 +186,33 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
             dintegrands: [[nan(); INTEGRALS]; C],
         }
     }
+    type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
+    #[inline]
+    fn clock<S: scalar::Scalar>(
+        mode: usize,
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> [S; CLOCK_TERMS] {
+        let _ = (mode, env);
+        [nan(); CLOCK_TERMS]
+    }
+    #[inline]
+    fn clock_lane<S: scalar::Real>(
+        clock: &[S; CLOCK_TERMS],
+        lane: usize,
+    ) -> [f64; CLOCK_TERMS] {
+        clock.map(|term| term.lane(lane))
+    }
+    #[inline]
+    fn variational_at<S: scalar::Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; STATES],
+        dx: &[[S; STATES]; C],
+        clock: &[S; CLOCK_TERMS],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> ([S; STATES], [[S; STATES]; C]) {
+        let _ = (mode, x, dx, clock, env);
+        (nan_state(), [nan_state(); C])
+    }
     fn residual<S: scalar::Scalar>(
         mode: usize,
         x: &[S; STATES],
@@ -1150,6 +1177,9 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
     }
     ([v9, k_v], products)
 }
+
+/// Number of terms that depend only on the clock, on parameters, memory and selectors: the most of any mode.
+const CLOCK_TERMS: usize = 0;
 
 /// NaN.
 fn nan<S: scalar::Scalar>() -> S {

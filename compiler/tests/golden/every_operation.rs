@@ -204,6 +204,39 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
             }
         }
     }
+    type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
+    #[inline]
+    fn clock<S: scalar::Scalar>(
+        mode: usize,
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> [S; CLOCK_TERMS] {
+        match mode {
+            0 => clock_first(env),
+            1 => clock_second(env),
+            _ => [nan(); CLOCK_TERMS],
+        }
+    }
+    #[inline]
+    fn clock_lane<S: scalar::Real>(
+        clock: &[S; CLOCK_TERMS],
+        lane: usize,
+    ) -> [f64; CLOCK_TERMS] {
+        clock.map(|term| term.lane(lane))
+    }
+    #[inline]
+    fn variational_at<S: scalar::Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; STATES],
+        dx: &[[S; STATES]; C],
+        clock: &[S; CLOCK_TERMS],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> ([S; STATES], [[S; STATES]; C]) {
+        match mode {
+            0 => staged_flow_first(x, dx, clock, env),
+            1 => staged_flow_second(x, dx, clock, env),
+            _ => (nan_state(), [nan_state(); C]),
+        }
+    }
     fn residual<S: scalar::Scalar>(
         mode: usize,
         x: &[S; STATES],
@@ -3103,6 +3136,251 @@ fn tangent_integrands_second<S: scalar::Scalar, const C: usize>(
         *product = [x_x.mul_add(dx_Y, x_Y * dx_x), v2 * dx_Y];
     }
     ([v0, v1], products)
+}
+
+/// Number of terms that depend only on the clock, on parameters, memory and selectors: the most of any mode.
+const CLOCK_TERMS: usize = 9;
+
+/// The terms of mode `first`'s flow that do not depend on the state.
+///
+/// 2 additions, 5 multiplications, 2 function calls, 4 selections.
+#[inline]
+fn clock_first<S: scalar::Scalar>(
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> [S; CLOCK_TERMS] {
+    let &[n_n, _] = env.memory else { return [nan(); CLOCK_TERMS] };
+    let &[b0, b1, b2, _] = env.branch else { return [nan(); CLOCK_TERMS] };
+    let &[p_a, _, p_c, _] = env.p;
+    let tau = env.tau;
+    let t = env.t;
+    let v0 = p_a * S::constant(0.25);
+    let v1 = S::constant(3.0) * t;
+    let v2 = v1.cos();
+    let v3 = S::constant(-1.0).pow(n_n);
+    let v4 = v3 * tau;
+    let v5 = S::constant(0.25) * p_a;
+    let v6 = p_c - S::constant(1.0);
+    let v7 = S::select(b1, S::constant(1.0), S::constant(0.0));
+    let v8 = S::select(b2, S::constant(1.0), S::constant(0.0));
+    let v9 = v7 + v8;
+    let v10 = p_a * S::constant(0.1);
+    let v11 = S::select(b0, S::constant(1.0), S::constant(0.0));
+    let v12 = S::select(b1, S::constant(0.0), S::constant(1.0));
+    [v0, v2, v4, v5, v6, v9, v10, v11, v12]
+}
+
+/// State derivative f of mode `first` and, for each column v, (df/dx) v, from the terms
+/// that do not depend on the state.
+///
+/// Once: 40 additions, 21 multiplications, 27 fused multiply-adds, 13 divisions, 29 function calls, 9 selections. A column: 3 multiplications, 3 fused multiply-adds.
+#[inline]
+fn staged_flow_first<S: scalar::Scalar, const C: usize>(
+    x: &[S; STATES],
+    columns: &[[S; STATES]; C],
+    clock: &[S; CLOCK_TERMS],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> ([S; STATES], [[S; STATES]; C]) {
+    let &[_, _] = env.memory else { return (nan_state(), [nan_state(); C]) };
+    let &[b0, b1, b2, b3] = env.branch else { return (nan_state(), [nan_state(); C]) };
+    let &[p_a, p_b, p_c, p_type] = env.p;
+    let &[x_x, x_Y, x_self] = x;
+    let &[c0, c1, c2, c3, c4, c5, c6, c7, c8] = clock;
+    let (v0, v1) = x_x.sin_cos();
+    let (v3, v2) = x_Y.sin_cos();
+    let v4 = p_a * x_x;
+    let v5 = v4.tan();
+    let v6 = v2.mul_add(v5, v0);
+    let v7 = c0 * x_x;
+    let v8 = v7.asin();
+    let v9 = v6 + v8;
+    let v10 = c0 * x_Y;
+    let v11 = v10.acos();
+    let v12 = v9 - v11;
+    let v13 = p_b * x_x;
+    let v14 = v13.atan();
+    let v15 = v12 + v14;
+    let v16 = x_x + S::constant(2.0);
+    let v17 = x_Y + S::constant(3.0);
+    let v18 = v16.atan2(v17);
+    let v19 = v15 + v18;
+    let v20 = v4.sinh();
+    let v21 = p_a * x_Y;
+    let v22 = v21.cosh();
+    let v23 = v20 + v22;
+    let v24 = x_self.tanh();
+    let v25 = v23 + v24;
+    let v26 = v13.asinh();
+    let v27 = v25 + v26;
+    let v28 = x_x * x_x;
+    let v29 = S::constant(2.0) + v28;
+    let v30 = v29.acosh();
+    let v31 = v27 + v30;
+    let v32 = v7.atanh();
+    let v33 = v31 + v32;
+    let v34 = S::constant(0.1).mul_add(v33, v19);
+    let v35 = x_x.mul_add(v28, v28);
+    let v36 = x_x + S::constant(5.0);
+    let v37 = v36 * v36;
+    let v38 = S::constant(1.0) / v37;
+    let v39 = S::constant(0.01).mul_add(v38, v35);
+    let v40 = v28 + S::constant(1.0);
+    let v41 = v40.sqrt();
+    let v42 = v39 + v41;
+    let v43 = v40.pow(S::constant(2.5));
+    let v44 = v42 + v43;
+    let v45 = v40.pow(p_c);
+    let v46 = v44 + v45;
+    let v47 = S::constant(1.0) / v41;
+    let v48 = v46 + v47;
+    let v49 = -v28;
+    let v50 = v49.exp();
+    let v51 = S::constant(1.0) + v28;
+    let v52 = v51 + p_type;
+    let v53 = v52.ln();
+    let v54 = v50 + v53;
+    let v55 = S::constant(0.1) * v48;
+    let v56 = c1.mul_add(v54, v55);
+    let v57 = v56 - x_x;
+    let v58 = x_x.sqrt();
+    let v59 = x_x.mul_add(v58, v58);
+    let v60 = S::select(b0, v59, v49);
+    let v61 = x_x * x_Y;
+    let v62 = S::select(b0, v61, v0);
+    let v63 = S::select(b1, x_x, x_Y);
+    let v64 = S::select(b2, x_x, p_a);
+    let v65 = v63 + v64;
+    let v66 = S::select(b3, v62, v65);
+    let v67 = v60 + v66;
+    let v68 = v67 + c2;
+    let v69 = v4.cos();
+    let v70 = v69 * v69;
+    let v71 = p_a / v70;
+    let v72 = v2.mul_add(v71, v1);
+    let v73 = (-v7).mul_add(v7, S::constant(1.0));
+    let v74 = v73.sqrt();
+    let v75 = c3 / v74;
+    let v76 = v72 + v75;
+    let v77 = v13.mul_add(v13, S::constant(1.0));
+    let v78 = p_b / v77;
+    let v79 = v76 + v78;
+    let v80 = v16 * v16;
+    let v81 = v17.mul_add(v17, v80);
+    let v82 = S::constant(1.0) / v81;
+    let v83 = v17.mul_add(v82, v79);
+    let v84 = v4.cosh();
+    let v85 = v77.sqrt();
+    let v86 = p_b / v85;
+    let v87 = p_a.mul_add(v84, v86);
+    let v88 = v29 - S::constant(1.0);
+    let v89 = v88.sqrt();
+    let v90 = S::constant(1.0) / v89;
+    let v91 = v29 + S::constant(1.0);
+    let v92 = v91.sqrt();
+    let v93 = v90 / v92;
+    let v94 = x_x + x_x;
+    let v95 = v93.mul_add(v94, v87);
+    let v96 = c3 / v73;
+    let v97 = v95 + v96;
+    let v98 = S::constant(0.1).mul_add(v97, v83);
+    let v99 = x_x.mul_add(v94, v28);
+    let v100 = v94 + v99;
+    let v101 = v38 * v38;
+    let v102 = v36 + v36;
+    let v103 = v101 * v102;
+    let v104 = S::constant(-0.01).mul_add(v103, v100);
+    let v105 = x_x * v47;
+    let v106 = v104 + v105;
+    let v107 = v40.pow(S::constant(1.5));
+    let v108 = v107 * v94;
+    let v109 = S::constant(2.5).mul_add(v108, v106);
+    let v110 = v40.pow(c4);
+    let v111 = v110 * v94;
+    let v112 = p_c.mul_add(v111, v109);
+    let v113 = v47 * v47;
+    let v114 = (-v113).mul_add(v105, v112);
+    let v115 = v94 / v52;
+    let v116 = (-v50).mul_add(v94, v115);
+    let v117 = S::constant(0.1) * v114;
+    let v118 = c1.mul_add(v116, v117);
+    let v119 = v118 + S::constant(-1.0);
+    let v120 = v58 + v58;
+    let v121 = S::constant(1.0) / v120;
+    let v122 = x_x.mul_add(v121, v58);
+    let v123 = v121 + v122;
+    let v124 = -v94;
+    let v125 = S::select(b0, v123, v124);
+    let v126 = S::select(b0, x_Y, v1);
+    let v127 = S::select(b3, v126, c5);
+    let v128 = v125 + v127;
+    let v129 = v21.sinh();
+    let v130 = v5 * v3;
+    let v131 = (-v10).mul_add(v10, S::constant(1.0));
+    let v132 = v131.sqrt();
+    let v133 = S::constant(-1.0) / v132;
+    let v134 = c3.mul_add(v133, v130);
+    let v135 = v16.mul_add(v82, v134);
+    let v136 = c6.mul_add(v129, -v135);
+    let v137 = c7 * x_x;
+    let v138 = S::select(b3, v137, c8);
+    let v139 = (-v24).mul_add(v24, S::constant(1.0));
+    let v140 = S::constant(0.1) * v139;
+    let mut products = [[S::constant(0.0); STATES]; C];
+    for (product, column) in products.iter_mut().zip(columns) {
+        let &[dx_x, dx_Y, dx_self] = column;
+        *product = [
+            v140.mul_add(dx_self, v136.mul_add(dx_Y, v98 * dx_x)),
+            v119 * dx_x,
+            v138.mul_add(dx_Y, v128 * dx_x),
+        ];
+    }
+    ([v34, v57, v68], products)
+}
+
+/// The terms of mode `second`'s flow that do not depend on the state.
+///
+/// No operations.
+#[inline]
+fn clock_second<S: scalar::Scalar>(
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> [S; CLOCK_TERMS] {
+    let &[_, _] = env.memory else { return [nan(); CLOCK_TERMS] };
+    let &[_, _, _, _] = env.branch else { return [nan(); CLOCK_TERMS] };
+    [
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+        S::constant(0.0),
+    ]
+}
+
+/// State derivative f of mode `second` and, for each column v, (df/dx) v, from the terms
+/// that do not depend on the state.
+///
+/// Once: 1 addition, 1 multiplication. A column: 1 addition, 1 multiplication, 1 fused multiply-add.
+#[inline]
+fn staged_flow_second<S: scalar::Scalar, const C: usize>(
+    x: &[S; STATES],
+    columns: &[[S; STATES]; C],
+    clock: &[S; CLOCK_TERMS],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> ([S; STATES], [[S; STATES]; C]) {
+    let &[_, _] = env.memory else { return (nan_state(), [nan_state(); C]) };
+    let &[_, _, _, _] = env.branch else { return (nan_state(), [nan_state(); C]) };
+    let &[x_x, x_Y, x_self] = x;
+    let &[_, _, _, _, _, _, _, _, _] = clock;
+    let v0 = -x_x;
+    let v1 = x_Y * x_self;
+    let mut products = [[S::constant(0.0); STATES]; C];
+    for (product, column) in products.iter_mut().zip(columns) {
+        let &[dx_x, dx_Y, dx_self] = column;
+        *product = [dx_Y, -dx_x, x_Y.mul_add(dx_self, x_self * dx_Y)];
+    }
+    ([x_Y, v0, v1], products)
 }
 
 /// NaN.

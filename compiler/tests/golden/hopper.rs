@@ -202,6 +202,39 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Hopper {
             }
         }
     }
+    type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
+    #[inline]
+    fn clock<S: scalar::Scalar>(
+        mode: usize,
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> [S; CLOCK_TERMS] {
+        match mode {
+            0 => clock_flight(env),
+            1 => clock_stance(env),
+            _ => [nan(); CLOCK_TERMS],
+        }
+    }
+    #[inline]
+    fn clock_lane<S: scalar::Real>(
+        clock: &[S; CLOCK_TERMS],
+        lane: usize,
+    ) -> [f64; CLOCK_TERMS] {
+        clock.map(|term| term.lane(lane))
+    }
+    #[inline]
+    fn variational_at<S: scalar::Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; STATES],
+        dx: &[[S; STATES]; C],
+        clock: &[S; CLOCK_TERMS],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> ([S; STATES], [[S; STATES]; C]) {
+        match mode {
+            0 => staged_flow_flight(x, dx, clock, env),
+            1 => staged_flow_stance(x, dx, clock, env),
+            _ => (nan_state(), [nan_state(); C]),
+        }
+    }
     fn residual<S: scalar::Scalar>(
         mode: usize,
         x: &[S; STATES],
@@ -1503,6 +1536,85 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
         *product = [v6.mul_add(dx_u, v5 * dx_v)];
     }
     ([v4], products)
+}
+
+/// Number of terms that depend only on the clock, on parameters, memory and selectors: the most of any mode.
+const CLOCK_TERMS: usize = 1;
+
+/// The terms of mode `flight`'s flow that do not depend on the state.
+///
+/// 1 addition.
+#[inline]
+fn clock_flight<S: scalar::Scalar>(
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> [S; CLOCK_TERMS] {
+    let &[_] = env.memory else { return [nan(); CLOCK_TERMS] };
+    let &[_, _, _] = env.branch else { return [nan(); CLOCK_TERMS] };
+    let &[p_g, _, _, _] = env.p;
+    let v0 = -p_g;
+    [v0]
+}
+
+/// State derivative f of mode `flight` and, for each column v, (df/dx) v, from the terms
+/// that do not depend on the state.
+///
+/// Once: No operations. A column: No operations.
+#[inline]
+fn staged_flow_flight<S: scalar::Scalar, const C: usize>(
+    x: &[S; STATES],
+    columns: &[[S; STATES]; C],
+    clock: &[S; CLOCK_TERMS],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> ([S; STATES], [[S; STATES]; C]) {
+    let &[_] = env.memory else { return (nan_state(), [nan_state(); C]) };
+    let &[_, _, _] = env.branch else { return (nan_state(), [nan_state(); C]) };
+    let &[_, x_v, _, _] = x;
+    let &[c0] = clock;
+    let mut products = [[S::constant(0.0); STATES]; C];
+    for (product, column) in products.iter_mut().zip(columns) {
+        let &[_, dx_v, _, _] = column;
+        *product = [dx_v, S::constant(0.0), S::constant(0.0), S::constant(0.0)];
+    }
+    ([x_v, c0, S::constant(0.0), S::constant(0.0)], products)
+}
+
+/// The terms of mode `stance`'s flow that do not depend on the state.
+///
+/// 1 addition, 1 multiplication.
+#[inline]
+fn clock_stance<S: scalar::Scalar>(
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> [S; CLOCK_TERMS] {
+    let &[_] = env.memory else { return [nan(); CLOCK_TERMS] };
+    let &[_, _, _] = env.branch else { return [nan(); CLOCK_TERMS] };
+    let &[_, p_omega, _, _] = env.p;
+    let v0 = p_omega * p_omega;
+    let v1 = -v0;
+    [v1]
+}
+
+/// State derivative f of mode `stance` and, for each column v, (df/dx) v, from the terms
+/// that do not depend on the state.
+///
+/// Once: 1 multiplication. A column: 1 multiplication.
+#[inline]
+fn staged_flow_stance<S: scalar::Scalar, const C: usize>(
+    x: &[S; STATES],
+    columns: &[[S; STATES]; C],
+    clock: &[S; CLOCK_TERMS],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> ([S; STATES], [[S; STATES]; C]) {
+    let &[_] = env.memory else { return (nan_state(), [nan_state(); C]) };
+    let &[_, _, _] = env.branch else { return (nan_state(), [nan_state(); C]) };
+    let &[_, _, x_q, x_u] = x;
+    let &[c0] = clock;
+    let v0 = c0 * x_q;
+    let mut products = [[S::constant(0.0); STATES]; C];
+    for (product, column) in products.iter_mut().zip(columns) {
+        let &[_, _, dx_q, dx_u] = column;
+        *product = [S::constant(0.0), S::constant(0.0), dx_u, c0 * dx_q];
+    }
+    ([S::constant(0.0), S::constant(0.0), x_u, v0], products)
 }
 
 /// NaN.

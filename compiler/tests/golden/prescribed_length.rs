@@ -197,6 +197,37 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for PrescribedLength {
             }
         }
     }
+    type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
+    #[inline]
+    fn clock<S: scalar::Scalar>(
+        mode: usize,
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> [S; CLOCK_TERMS] {
+        match mode {
+            0 => clock_stance(env),
+            _ => [nan(); CLOCK_TERMS],
+        }
+    }
+    #[inline]
+    fn clock_lane<S: scalar::Real>(
+        clock: &[S; CLOCK_TERMS],
+        lane: usize,
+    ) -> [f64; CLOCK_TERMS] {
+        clock.map(|term| term.lane(lane))
+    }
+    #[inline]
+    fn variational_at<S: scalar::Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; STATES],
+        dx: &[[S; STATES]; C],
+        clock: &[S; CLOCK_TERMS],
+        env: &model::Env<'_, S, PARAMETERS>,
+    ) -> ([S; STATES], [[S; STATES]; C]) {
+        match mode {
+            0 => staged_flow_stance(x, dx, clock, env),
+            _ => (nan_state(), [nan_state(); C]),
+        }
+    }
     fn residual<S: scalar::Scalar>(
         mode: usize,
         x: &[S; STATES],
@@ -2091,6 +2122,67 @@ fn tangent_integrands<S: scalar::Scalar, const C: usize>(
         ];
     }
     ([v12, v19, v36], products)
+}
+
+/// Number of terms that depend only on the clock, on parameters, memory and selectors: the most of any mode.
+const CLOCK_TERMS: usize = 4;
+
+/// The terms of mode `stance`'s flow that do not depend on the state.
+///
+/// 4 additions, 5 multiplications, 1 fused multiply-add, 2 divisions, 1 function call, 3 selections.
+#[inline]
+fn clock_stance<S: scalar::Scalar>(
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> [S; CLOCK_TERMS] {
+    let &[_] = env.memory else { return [nan(); CLOCK_TERMS] };
+    let &[b0, _, _, _] = env.branch else { return [nan(); CLOCK_TERMS] };
+    let &[p_l_s, p_l_b, _, p_g, _, p_omega] = env.p;
+    let tau = env.tau;
+    let v0 = p_l_s / S::constant(2.0);
+    let v1 = p_omega * tau;
+    let (v3, v2) = v1.sin_cos();
+    let v4 = S::constant(1.0) + v2;
+    let v5 = v0.mul_add(v4, p_l_b);
+    let v6 = S::select(b0, v5, p_l_b);
+    let v7 = S::constant(1.0) / v6;
+    let v8 = v3 * p_omega;
+    let v9 = v0 * v8;
+    let v10 = -v9;
+    let v11 = S::select(b0, v10, S::constant(0.0));
+    let v12 = v11 * v7;
+    let v13 = -p_g;
+    let v14 = -v12;
+    let v15 = v9 * v7;
+    let v16 = S::select(b0, v15, S::constant(0.0));
+    [v7, v13, v14, v16]
+}
+
+/// State derivative f of mode `stance` and, for each column v, (df/dx) v, from the terms
+/// that do not depend on the state.
+///
+/// Once: 3 multiplications, 1 fused multiply-add, 1 function call. A column: 2 multiplications, 1 fused multiply-add.
+#[inline]
+fn staged_flow_stance<S: scalar::Scalar, const C: usize>(
+    x: &[S; STATES],
+    columns: &[[S; STATES]; C],
+    clock: &[S; CLOCK_TERMS],
+    env: &model::Env<'_, S, PARAMETERS>,
+) -> ([S; STATES], [[S; STATES]; C]) {
+    let &[_] = env.memory else { return (nan_state(), [nan_state(); C]) };
+    let &[_, _, _, _] = env.branch else { return (nan_state(), [nan_state(); C]) };
+    let &[x_q_theta, x_p_theta] = x;
+    let &[c0, c1, c2, c3] = clock;
+    let (v0, v1) = x_q_theta.sin_cos();
+    let v2 = c1 * v0;
+    let v3 = c2.mul_add(x_p_theta, v2);
+    let v4 = c0 * x_p_theta;
+    let v5 = c1 * v1;
+    let mut products = [[S::constant(0.0); STATES]; C];
+    for (product, column) in products.iter_mut().zip(columns) {
+        let &[dx_q_theta, dx_p_theta] = column;
+        *product = [c0 * dx_p_theta, c3.mul_add(dx_p_theta, v5 * dx_q_theta)];
+    }
+    ([v4, v3], products)
 }
 
 /// NaN.

@@ -19,6 +19,7 @@ pub(super) fn evaluate<M: Model<N, P, Q>, const N: usize, const P: usize, const 
     Some(match function {
         Function::Flow(mode) => jacobian(M::flow(mode, x, &env), M::flow_jacobian(mode, x, &env)),
         Function::Variational(mode) => variational::<M, N, P, Q>(mode, x, &env),
+        Function::Staged(mode) => staged::<M, N, P, Q>(mode, x, &env),
         Function::Integrated(mode) => integrated::<M, N, P, Q>(mode, x, &env),
         Function::Residual(mode) => residual(M::residual(mode, x, k, &env), M::residual_jacobian(mode, x, k, &env)),
         Function::Linearised(mode) => linearised::<M, N, P, Q>(mode, x, k, &env),
@@ -149,6 +150,20 @@ fn variational<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize
     env: &Env<'_, f64, P>,
 ) -> Evaluation {
     let (value, dx) = M::variational(mode, x, &unit::<N>(), env);
+    Evaluation {
+        value: value.to_vec(),
+        plain: M::flow(mode, x, env).to_vec(),
+        derivatives: vec![(Variable::State, columns(&dx))],
+    }
+}
+
+fn staged<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
+    mode: usize,
+    x: &[f64; N],
+    env: &Env<'_, f64, P>,
+) -> Evaluation {
+    let clock = M::clock_lane(&M::clock(mode, env), 0);
+    let (value, dx) = M::variational_at(mode, x, &unit::<N>(), &clock, env);
     Evaluation {
         value: value.to_vec(),
         plain: M::flow(mode, x, env).to_vec(),

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 use gaitc_runtime::model::{
     Directions, Env, Gradient, Integrated, Jacobian, Linearised, Model, ModelInfo, RateGradient, ResidualJacobian,
 };
-use gaitc_runtime::scalar::Scalar;
+use gaitc_runtime::scalar::{Real, Scalar};
 use gaitc_runtime::sensitivity::Dual;
 
 /// A constant.
@@ -142,6 +142,18 @@ impl<E: Equations<N, P, Q>, const N: usize, const P: usize, const Q: usize> Mode
         mode: usize,
         x: &[S; N],
         dx: &[[S; N]; C],
+        env: &Env<'_, S, P>,
+    ) -> ([S; N], [[S; N]; C]) {
+        E::variational(mode, x, dx, env)
+    }
+    type Clock<S: Scalar> = ();
+    fn clock<S: Scalar>(_: usize, _: &Env<'_, S, P>) {}
+    fn clock_lane<S: Real>((): &(), _: usize) {}
+    fn variational_at<S: Scalar, const C: usize>(
+        mode: usize,
+        x: &[S; N],
+        dx: &[[S; N]; C],
+        (): &(),
         env: &Env<'_, S, P>,
     ) -> ([S; N], [[S; N]; C]) {
         E::variational(mode, x, dx, env)

@@ -21,6 +21,8 @@ pub(super) struct Body<'a> {
     names: usize,
     /// Inputs that occur.
     inputs: BTreeSet<Input>,
+    /// Terms computed before that occur.
+    terms: BTreeSet<usize>,
     /// Nonzero derivatives by row and column.
     entries: HashMap<(usize, usize), Value>,
 }
@@ -35,6 +37,7 @@ impl<'a> Body<'a> {
             statements: Vec::new(),
             names: 0,
             inputs: BTreeSet::new(),
+            terms: BTreeSet::new(),
             entries,
         };
         let (pairs, mut known) = (program.pairs(), HashMap::new());
@@ -74,6 +77,11 @@ impl<'a> Body<'a> {
                 let Some(&input) = context.inputs.get(i) else { return quote!(nan()) };
                 self.inputs.insert(input);
                 let name = names::input(context.model(), input);
+                return quote!(#name);
+            }
+            Operation::Term(i) => {
+                self.terms.insert(i);
+                let name = names::term(i);
                 return quote!(#name);
             }
             Operation::Unary(op, a) => unary(op, &arg(a)),
@@ -174,6 +182,15 @@ impl<'a> Body<'a> {
     ) -> TokenStream {
         let names = self.pattern(inputs);
         quote!(let &[#(#names),*] = #source else { #otherwise };)
+    }
+
+    /// Binds the terms computed before, elements of the array `clock` of this length.
+    pub(super) fn bind_terms(&self, length: usize) -> TokenStream {
+        let names = (0..length).map(|i| {
+            let name = names::term(i);
+            if self.terms.contains(&i) { quote!(#name) } else { quote!(_) }
+        });
+        quote!(let &[#(#names),*] = clock;)
     }
 
     /// Whether any of some symbols occurs.

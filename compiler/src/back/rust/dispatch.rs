@@ -1,7 +1,7 @@
 //! `impl Model`: every function of the trait picks the private function of the mode, transition, switch or observable
 //! that it is asked for, and answers NaN to an index out of range.
 
-use super::{Context, EmitError, measured, names, text};
+use super::{Context, EmitError, clock, measured, names, text};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -9,6 +9,7 @@ use quote::quote;
 pub(super) fn implementation(context: &Context<'_>) -> Result<TokenStream, EmitError> {
     let name = names::type_name(context.model());
     let flows = flows(context);
+    let clock = clock::dispatch(context);
     let residuals = residuals(context);
     let (integrands, observables) = measured::dispatch(context);
     let events = events(context);
@@ -18,6 +19,7 @@ pub(super) fn implementation(context: &Context<'_>) -> Result<TokenStream, EmitE
         impl model::Model<STATES, PARAMETERS, INTEGRALS> for #name {
             const INFO: &'static model::ModelInfo = &INFO;
             #flows
+            #clock
             #residuals
             #integrands
             #events

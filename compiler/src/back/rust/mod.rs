@@ -5,6 +5,7 @@
 //! and depends on nothing but the model and its programs.
 
 mod body;
+mod clock;
 mod derivatives;
 mod dispatch;
 mod info;
@@ -19,13 +20,14 @@ pub use names::camel;
 pub use registry::{Mounted, registry};
 
 use crate::casadi::functions::Columns;
+use crate::casadi::hoist::Hoisted;
 use crate::casadi::{Function, Program, Quantity, exchange};
-use crate::ir::Model;
+use crate::ir::{Model, Symbol};
 use crate::valid::Validated;
 use exchange::Input;
 use proc_macro2::TokenStream;
 use quote::quote;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// How to print.
 #[derive(Clone, Debug)]
@@ -56,11 +58,17 @@ struct Context<'a> {
     validated: &'a Validated,
     inputs: Vec<Input>,
     programs: HashMap<Function, Program>,
+    /// The flow with its derivatives in the state in two parts, for each mode that has an explicit one.
+    hoisted: Vec<Hoisted>,
 }
 
 impl<'a> Context<'a> {
     fn model(&self) -> &'a Model {
         self.validated.model()
+    }
+
+    fn parts(&self, mode: usize) -> Result<&Hoisted, EmitError> {
+        self.hoisted.get(mode).ok_or_else(|| EmitError::Programs(format!("the flow of mode {mode} is missing")))
     }
 
     fn program(&self, quantity: Quantity, by: Columns) -> Result<&Program, EmitError> {
@@ -75,9 +83,11 @@ impl<'a> Context<'a> {
 /// When the runtime path is malformed or the programs do not belong to the model.
 pub fn emit(validated: &Validated, programs: &[(Function, Program)], options: &Options) -> Result<String, EmitError> {
     let runtime = runtime_path(&options.runtime_path)?;
+    let inputs = exchange::inputs(validated.model());
     let context = Context {
         validated,
-        inputs: exchange::inputs(validated.model()),
+        hoisted: hoisted(&inputs, programs),
+        inputs,
         programs: programs.iter().map(|(function, program)| (*function, program.fused())).collect(),
     };
     let mut items = preamble(&context, &runtime);
@@ -87,6 +97,7 @@ pub fn emit(validated: &Validated, programs: &[(Function, Program)], options: &O
     items.extend(derivatives::functions(&context)?);
     items.extend(measured::functions(&context)?);
     items.extend(tangent::functions(&context)?);
+    items.extend(clock::functions(&context)?);
     items.extend(not_a_number());
     let mut file = head(validated.model())?;
     for item in items {
@@ -94,6 +105,21 @@ pub fn emit(validated: &Validated, programs: &[(Function, Program)], options: &O
         file.push_str(&text::pretty(item)?);
     }
     Ok(file)
+}
+
+/// The flows of all modes, each in what depends on the state and what does not.
+fn hoisted(inputs: &[Input], programs: &[(Function, Program)]) -> Vec<Hoisted> {
+    let moves = |input: usize| matches!(inputs.get(input), Some(Input::Symbol(Symbol::State(_))));
+    let parts = |program: &Program| {
+        let Hoisted { clock, rest } = program.hoisted(moves);
+        Hoisted { clock: clock.fused(), rest: rest.fused() }
+    };
+    let flow = |(function, program): &(Function, Program)| match function {
+        Function { quantity: Quantity::Flow(mode), by: Columns::State } => Some((*mode, parts(program))),
+        _ => None,
+    };
+    let by_mode: BTreeMap<usize, Hoisted> = programs.iter().filter_map(flow).collect();
+    by_mode.into_values().collect()
 }
 
 /// The runtime's path as tokens.

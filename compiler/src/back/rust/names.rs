@@ -29,6 +29,11 @@ pub(super) fn input(model: &Model, input: Input) -> Ident {
     }
 }
 
+/// The local variable that holds a term of the clock.
+pub(super) fn term(index: usize) -> Ident {
+    format_ident!("c{index}")
+}
+
 /// The local variable that holds the variation of an input.
 pub(super) fn variation(model: &Model, symbol: Symbol) -> Ident {
     self::symbol(model, "d", symbol)

@@ -134,7 +134,7 @@ fn integrands(context: &Context<'_>, mode: Option<usize>) -> Result<TokenStream,
 }
 
 /// Makes a printed function generic over the number of columns, and a candidate for inlining.
-fn with_columns(function: TokenStream) -> TokenStream {
+pub(super) fn with_columns(function: TokenStream) -> TokenStream {
     // The printer of state functions knows one type parameter; the number of columns is added in the tree, not the text.
     match syn::parse2::<syn::ItemFn>(function.clone()) {
         Ok(mut item) => {
@@ -148,7 +148,7 @@ fn with_columns(function: TokenStream) -> TokenStream {
 }
 
 /// The sparse products of a program's Jacobian with a column.
-struct Products<'a> {
+pub(super) struct Products<'a> {
     context: &'a Context<'a>,
     body: &'a Body<'a>,
     program: &'a Program,
@@ -156,12 +156,12 @@ struct Products<'a> {
 }
 
 impl<'a> Products<'a> {
-    fn new(context: &'a Context<'a>, body: &'a Body<'a>, program: &'a Program, by: Columns) -> Self {
+    pub(super) fn new(context: &'a Context<'a>, body: &'a Body<'a>, program: &'a Program, by: Columns) -> Self {
         Self { context, body, program, symbols: by.symbols(context.model()) }
     }
 
     /// Rows of the product as an array.
-    fn rows(&self, rows: std::ops::Range<usize>) -> TokenStream {
+    pub(super) fn rows(&self, rows: std::ops::Range<usize>) -> TokenStream {
         let rows = rows.map(|row| self.row(row));
         quote!([#(#rows),*])
     }
@@ -198,7 +198,7 @@ impl<'a> Products<'a> {
     }
 
     /// The pattern that binds the components of a column that occur in a product.
-    fn pattern(&self, symbols: &[Symbol]) -> TokenStream {
+    pub(super) fn pattern(&self, symbols: &[Symbol]) -> TokenStream {
         let names = symbols.iter().map(|symbol| {
             if self.uses(*symbol) {
                 let name = names::variation(self.context.model(), *symbol);
@@ -211,7 +211,7 @@ impl<'a> Products<'a> {
     }
 
     /// Operation counts of the shared part, and of each column.
-    fn counts(&self) -> String {
+    pub(super) fn counts(&self) -> String {
         let mut column = Counts::default();
         for row in 0..self.program.values.len() {
             for (i, entry) in self.program.jacobian.iter().filter(|entry| entry.row == row).enumerate() {
