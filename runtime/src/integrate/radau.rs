@@ -328,7 +328,7 @@ where
         let start = state(step.start.x);
         let end = start.advance(step.h, t.a[S - 1], k.each_ref());
         let d = t.defect(step.h, &state(step.start_rates.x), &k);
-        size(&start, &end, &state(work.filtered(step.h * t.gamma, &d.x)), estimate)
+        size(&start, &end, &state(work.filtered(&d.x)), estimate)
     }
 
     /// The error of everything; after [`Self::state_error`].
@@ -339,10 +339,9 @@ where
         work: &mut Workspace<N, S>,
     ) -> f64 {
         let mut e = Self::TABLEAU.defect(step.h, &step.start_rates, &step.stages.k);
-        let h_gamma = step.h * Self::TABLEAU.gamma;
-        e.x = work.filtered(h_gamma, &e.x);
+        e.x = work.filtered(&e.x);
         for column in e.dx.iter_mut().take(columns) {
-            *column = work.filtered(h_gamma, column);
+            *column = work.filtered(column);
         }
         size(&step.start, &step.end, &e, estimate)
     }
