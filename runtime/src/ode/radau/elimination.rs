@@ -7,7 +7,7 @@
 //! diagonal ones little.
 
 use super::coefficients::Tableau;
-use super::fused::{Block, applied, subtract_applied, subtract_entries};
+use super::fused::{Block, applied, entries, less_applied, less_entries, scaled};
 use super::lu::Factors;
 use crate::model::Linearised;
 
@@ -25,8 +25,10 @@ pub(super) struct System<const N: usize, const S: usize> {
     patterns: [Pattern; N],
     /// The states: those that are substituted, in order, then the others.
     order: [usize; N],
-    /// How many are substituted.
+    /// How many are substituted, ...
     substituted: usize,
+    /// ... and which: one bit each. They are taken in ascending order.
+    taken: u64,
     /// h A.
     integration: Block<S>,
     /// A^-1/h.
@@ -52,6 +54,30 @@ impl Pattern {
     fn has(&self, column: usize) -> bool {
         (self.diagonal | self.full) & (1 << column) != 0
     }
+
+    /// The block of a column, written out in full.
+    #[inline(always)]
+    fn fill_up<'a, const N: usize, const S: usize>(
+        &mut self,
+        blocks: &'a mut [Block<S>; N],
+        diagonals: &[Staged<S>; N],
+        column: usize,
+        differentiation: &Block<S>,
+    ) -> &'a mut Block<S> {
+        let (block, bit) = (&mut blocks[column], 1 << column);
+        if self.full & bit == 0 {
+            *block = if self.implied & bit != 0 { *differentiation } else { [[0.0; S]; S] };
+            if self.diagonal & bit != 0 {
+                for i in 0..S {
+                    block[i][i] += diagonals[column][i];
+                }
+            }
+            self.diagonal &= !bit;
+            self.implied &= !bit;
+            self.full |= bit;
+        }
+        block
+    }
 }
 
 impl<const N: usize, const S: usize> Default for System<N, S> {
@@ -63,6 +89,7 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
             patterns: [Pattern::default(); N],
             order: core::array::from_fn(|a| a),
             substituted: 0,
+            taken: 0,
             integration: [[0.0; S]; S],
             differentiation: [[0.0; S]; S],
             scales: vec![[1.0; S]; N],
@@ -102,10 +129,10 @@ impl<const N: usize, const S: usize> System<N, S> {
                 pattern.diagonal |= 1 << column;
             }
             if by_rate {
-                let block = fill_up(&mut self.blocks[row], &self.diagonals[row], &mut pattern, column);
+                let block = pattern.fill_up(&mut self.blocks[row], &self.diagonals[row], column, &self.differentiation);
                 let mass = linearised.each_ref().map(|at| -at.dk[column][row]);
                 for k in 0..S {
-                    subtract_entries(&mut block[k], &mass, &self.differentiation[k]);
+                    block[k] = less_entries(block[k], mass, self.differentiation[k]);
                 }
             }
         }
@@ -132,17 +159,19 @@ impl<const N: usize, const S: usize> System<N, S> {
             left &= !(1 << t);
             gone |= 1 << t;
             let columns = (self.patterns[t].diagonal | self.patterns[t].full) & !gone;
-            for column in bits(columns) {
-                self.integrate(t, column);
-                for row in 0..N {
-                    if gone & (1 << row) == 0 && self.patterns[row].has(t) {
-                        self.subtract(row, t, column);
+            for column in 0..N {
+                if columns & (1 << column) != 0 {
+                    self.integrate(t, column);
+                    for row in 0..N {
+                        if gone & (1 << row) == 0 && self.patterns[row].has(t) {
+                            self.subtract(row, t, column);
+                        }
                     }
                 }
             }
             left &= !bits(left).filter(|&row| self.patterns[row].implied == 0).fold(0, |set, row| set | 1 << row);
         }
-        self.substituted = first;
+        (self.substituted, self.taken) = (first, gone);
     }
 
     /// Turns B_tb into h A B_tb.
@@ -151,12 +180,12 @@ impl<const N: usize, const S: usize> System<N, S> {
         let (pattern, block) = (&mut self.patterns[t], &mut self.blocks[t][column]);
         if pattern.full & (1 << column) != 0 {
             for k in 0..S {
-                block[k] = applied(&self.integration, &block[k]);
+                block[k] = applied(&self.integration, block[k]);
             }
         } else {
             for k in 0..S {
                 let factor = self.diagonals[t][column][k];
-                block[k] = self.integration[k].map(|v| v * factor);
+                block[k] = scaled(factor, self.integration[k]);
             }
             pattern.diagonal &= !(1 << column);
             pattern.full |= 1 << column;
@@ -166,27 +195,22 @@ impl<const N: usize, const S: usize> System<N, S> {
     /// Subtracts B_at h A B_tb from B_ab; a is `row`, b is `column`.
     #[inline]
     fn subtract(&mut self, row: usize, t: usize, column: usize) {
-        let by = self.blocks[t][column];
-        let pattern = &mut self.patterns[row];
-        let factor = (pattern.full & (1 << t) != 0).then(|| self.blocks[row][t]);
-        if column == row && pattern.implied != 0 {
-            self.diagonals[row][row] = [0.0; S];
-            let own = fill_up(&mut self.blocks[row], &self.diagonals[row], pattern, row);
-            *own = self.differentiation;
-            pattern.implied = 0;
-        }
-        let target = fill_up(&mut self.blocks[row], &self.diagonals[row], pattern, column);
-        match factor {
-            Some(factor) => {
-                for k in 0..S {
-                    subtract_applied(&mut target[k], &factor, &by[k]);
-                }
+        let (pattern, diagonals) = (&mut self.patterns[row], &self.diagonals[row]);
+        let Ok([blocks, by]) = self.blocks.get_disjoint_mut([row, t]) else {
+            return;
+        };
+        let by = &by[column];
+        if pattern.full & (1 << t) != 0 {
+            let factor = blocks[t];
+            let target = pattern.fill_up(blocks, diagonals, column, &self.differentiation);
+            for k in 0..S {
+                target[k] = less_applied(target[k], &factor, by[k]);
             }
-            None => {
-                let factor = &self.diagonals[row][t];
-                for k in 0..S {
-                    subtract_entries(&mut target[k], factor, &by[k]);
-                }
+        } else {
+            let factor = diagonals[t];
+            let target = pattern.fill_up(blocks, diagonals, column, &self.differentiation);
+            for k in 0..S {
+                target[k] = less_entries(target[k], factor, by[k]);
             }
         }
     }
@@ -216,19 +240,17 @@ impl<const N: usize, const S: usize> System<N, S> {
             self.scales[row] = largest.map(|v| if v > 0.0 { 1.0 / v } else { 1.0 });
         }
         for (block, &column) in rest.iter().enumerate() {
+            let bit = 1 << column;
             for k in 0..S {
-                let entries = self.rest.column(block * S + k);
-                for (&row, entries) in rest.iter().zip(entries.chunks_exact_mut(S)) {
-                    let (pattern, bit, scale) = (&self.patterns[row], 1 << column, &self.scales[row]);
+                let (column_entries, _) = self.rest.column(block * S + k).as_chunks_mut::<S>();
+                for (&row, column_entries) in rest.iter().zip(column_entries) {
+                    let (pattern, scale) = (&self.patterns[row], &self.scales[row]);
                     if pattern.full & bit != 0 {
-                        let from = &self.blocks[row][column][k];
-                        for i in 0..S {
-                            entries[i] = scale[i] * from[i];
-                        }
+                        *column_entries = entries(*scale, self.blocks[row][column][k]);
                     } else {
-                        entries.fill(0.0);
+                        *column_entries = [0.0; S];
                         if pattern.diagonal & bit != 0 {
-                            entries[k] = scale[k] * self.diagonals[row][column][k];
+                            column_entries[k] = scale[k] * self.diagonals[row][column][k];
                         }
                     }
                 }
@@ -239,49 +261,70 @@ impl<const N: usize, const S: usize> System<N, S> {
     /// Rates of all stages for the right-hand side `right`, and the increments of the state that they make; after a successful
     /// [`Self::factorise`].
     pub(super) fn solve(&mut self, right: &[[f64; N]; S]) -> Solution<N, S> {
-        let mut x: [Staged<S>; N] = core::array::from_fn(|a| core::array::from_fn(|i| right[i][a]));
-        let (substituted, rest) = self.order.split_at(self.substituted);
-        for (position, &t) in substituted.iter().enumerate() {
-            let value = applied(&self.integration, &x[t]);
+        let mut x = [[0.0; S]; N];
+        for i in 0..S {
+            for a in 0..N {
+                x[a][i] = right[i][a];
+            }
+        }
+        let mut gone = 0_u64;
+        for t in 0..N {
+            if self.taken & (1 << t) == 0 {
+                continue;
+            }
+            gone |= 1 << t;
+            let value = applied(&self.integration, x[t]);
             x[t] = value;
-            for &row in &self.order[position + 1..] {
-                let (pattern, bit) = (&self.patterns[row], 1 << t);
-                if pattern.full & bit != 0 {
-                    subtract_applied(&mut x[row], &self.blocks[row][t], &value);
-                } else if pattern.diagonal & bit != 0 {
-                    subtract_entries(&mut x[row], &self.diagonals[row][t], &value);
+            for row in 0..N {
+                let pattern = &self.patterns[row];
+                if gone & (1 << row) != 0 {
+                    continue;
+                }
+                if pattern.diagonal & (1 << t) != 0 {
+                    x[row] = less_entries(x[row], self.diagonals[row][t], value);
+                } else if pattern.full & (1 << t) != 0 {
+                    x[row] = less_applied(x[row], &self.blocks[row][t], value);
                 }
             }
         }
-        let mut scaled = [[0.0; S]; N];
-        for (&row, scaled) in rest.iter().zip(&mut scaled) {
-            for i in 0..S {
-                scaled[i] = x[row][i] * self.scales[row][i];
+        self.solve_rest(&mut x);
+        for t in (0..N).rev() {
+            if self.taken & (1 << t) == 0 {
+                continue;
             }
-        }
-        let solution = self.rest.solve(scaled.as_flattened());
-        for (&row, value) in rest.iter().zip(solution.chunks_exact(S)) {
-            x[row].copy_from_slice(value);
-        }
-        let mut gone = substituted.iter().fold(0_u64, |set, t| set | 1 << t);
-        for &t in substituted.iter().rev() {
             // What was substituted before it is no longer in its equation; the block there is the factor of the right-hand side.
-            let mut value = x[t];
             let columns = self.patterns[t].full & !gone;
             gone &= !(1 << t);
-            for column in bits(columns) {
-                subtract_applied(&mut value, &self.blocks[t][column], &x[column]);
+            let mut value = x[t];
+            for column in 0..N {
+                if columns & (1 << column) != 0 {
+                    value = less_applied(value, &self.blocks[t][column], x[column]);
+                }
             }
             x[t] = value;
         }
         let mut rates = [[0.0; N]; S];
         for a in 0..N {
-            let rate = applied(&self.differentiation, &x[a]);
+            let rate = applied(&self.differentiation, x[a]);
             for i in 0..S {
                 rates[i][a] = rate[i];
             }
         }
         Solution { rates, increments: x }
+    }
+
+    /// The increments of the remaining states, in the place of their equations' right-hand sides.
+    #[inline]
+    fn solve_rest(&mut self, x: &mut [Staged<S>; N]) {
+        let rest = &self.order[self.substituted..];
+        let mut scaled = [[0.0; S]; N];
+        for (&row, scaled) in rest.iter().zip(&mut scaled) {
+            *scaled = entries(x[row], self.scales[row]);
+        }
+        let (solution, _) = self.rest.solve(scaled.as_flattened()).as_chunks::<S>();
+        for (&row, value) in rest.iter().zip(solution) {
+            x[row] = *value;
+        }
     }
 }
 
@@ -292,28 +335,6 @@ pub(super) struct Solution<const N: usize, const S: usize> {
     pub(super) rates: [[f64; N]; S],
     /// Of the states at the stages, one array a state.
     pub(super) increments: [Staged<S>; N],
-}
-
-/// The block of a column, written out in full.
-#[inline]
-fn fill_up<'a, const N: usize, const S: usize>(
-    blocks: &'a mut [Block<S>; N],
-    diagonals: &[Staged<S>; N],
-    pattern: &mut Pattern,
-    column: usize,
-) -> &'a mut Block<S> {
-    let (block, bit) = (&mut blocks[column], 1 << column);
-    if pattern.full & bit == 0 {
-        *block = [[0.0; S]; S];
-        if pattern.diagonal & bit != 0 {
-            for i in 0..S {
-                block[i][i] = diagonals[column][i];
-            }
-        }
-        pattern.diagonal &= !bit;
-        pattern.full |= bit;
-    }
-    block
 }
 
 /// Which derivatives are not zero at some stage: bits of numbers by state and equation.

@@ -107,7 +107,7 @@ impl Factors {
             let lower = split(finished, j, inverses[j]);
             for column in rest {
                 let factor = column.as_flattened()[j];
-                subtract(column, factor, &lower);
+                *column = less(*column, factor, &lower);
             }
             lowers[j] = lower;
         }
@@ -124,12 +124,12 @@ impl Factors {
         // What lies beyond row n stays zero.
         for (j, lower) in lowers[..self.n].iter().enumerate() {
             let factor = x.as_flattened()[j];
-            subtract(&mut x, factor, lower);
+            x = less(x, factor, lower);
         }
         let inverses = &self.inverses.as_flattened()[..self.n];
         for ((j, column), inverse) in columns[..self.n].iter().enumerate().zip(inverses).rev() {
             let value = x.as_flattened()[j] * inverse;
-            subtract(&mut x, value, column);
+            x = less(x, value, column);
             x.as_flattened_mut()[j] = value;
         }
         self.solution.copy_from_slice(&x);
@@ -159,14 +159,15 @@ fn split<const H: usize>(column: &mut [Group; H], j: usize, inverse: f64) -> [Gr
     lower
 }
 
-/// `target -= factor * column`.
+/// `target - factor * column`.
 #[inline(always)]
-fn subtract<const H: usize>(target: &mut [Group; H], factor: f64, column: &[Group; H]) {
+fn less<const H: usize>(mut target: [Group; H], factor: f64, column: &[Group; H]) -> [Group; H] {
     for h in 0..H {
         for i in 0..GROUP {
             target[h][i] = Scalar::mul_add(-factor, column[h][i], target[h][i]);
         }
     }
+    target
 }
 
 #[cfg(test)]

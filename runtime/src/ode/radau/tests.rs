@@ -145,7 +145,8 @@ fn the_error_estimate_falls_like_h_to_the_sixth() {
         let rates: [Bundle<3, 0, 0>; 5] = core::array::from_fn(|s| state(k[s]));
         let mut e = RADAU5.defect(h, &state([y * y, x * y, z]), &rates);
         let at = Toy.linearised(0.1 + h, &end, &k[4]);
-        let mut work = Workspace::<3, 5> { end: at, ..Workspace::default() };
+        let mut work = Workspace::<3, 5>::default();
+        work.end = at;
         assert!(work.factorise_filter(h * RADAU5.gamma));
         e.x = work.filtered(&e.x);
         size(&state(exact(0.1)), &state(end), &e, tolerance)
