@@ -107,11 +107,12 @@ pub(crate) fn watch<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize
 }
 
 /// The events that come first in a step, at the same time to rounding: transitions in the order of the spec, then
-/// switches. Empty when there is none after all.
+/// switches. Empty when there is none after all. `shorter` becomes a step from the same start to near the event that was
+/// looked at last.
 #[inline(never)]
 pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<X, N>,
+    (step, shorter): (&StateStep<X, N>, &mut StateStep<X, N>),
     watched: &[Watched],
     warnings: &mut Vec<Warning>,
     work: &mut X::Workspace<N>,
@@ -121,7 +122,9 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
     let (mut found, mut touches) = (Vec::new(), Vec::new());
     for (i, w) in watched.iter().enumerate().filter(|(_, w)| w.suspicious(step.h)) {
         let touches = &mut touches;
-        if let Some((h, last)) = first_passage::<X, M, N, P, Q>(frame, step, &dense, w, touches, work, statistics) {
+        if let Some((h, last)) =
+            first_passage::<X, M, N, P, Q>(frame, (step, shorter), &dense, w, touches, work, statistics)
+        {
             let tau = step.tau + h;
             let uncertainty = 8.0 * f64::EPSILON * tau + last.rounding / last.rate.abs().max(f64::MIN_POSITIVE);
             found.push(Found { watched: i, h, uncertainty: uncertainty.min(1e-9 * tau).max(0.0) });
@@ -148,7 +151,7 @@ pub(crate) fn first_events<X: Method, M: Model<N, P, Q>, const N: usize, const P
 /// touches, with their times and rates.
 fn first_passage<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<X, N>,
+    (step, shorter): (&StateStep<X, N>, &mut StateStep<X, N>),
     dense: &X::Dense<N>,
     w: &Watched,
     touches: &mut Vec<(Surface, f64, f64)>,
@@ -164,12 +167,12 @@ fn first_passage<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, c
         let (h, last) = match passage {
             Passage::Crossing { low, high, at, from } => {
                 let bracket = (low * step.h, high * step.h);
-                exact::<X, M, N, P, Q>(frame, step, w, bracket, (at * step.h, from), work, statistics)
+                exact::<X, M, N, P, Q>(frame, shorter, w, bracket, (at * step.h, from), work, statistics)
             }
             Passage::Touch { at } => (at * step.h, on_dense(at)),
         };
         // One that does not count is passed over; there may be another one in the same step.
-        if !enabled::<X, M, N, P, Q>(frame, step, w.surface, h, work, statistics) {
+        if !enabled::<X, M, N, P, Q>(frame, shorter, w.surface, h, work, statistics) {
             continue;
         }
         match passage {
@@ -183,7 +186,7 @@ fn first_passage<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, c
 /// The time of a crossing after the start of the step, exact to rounding, and the surface's reading near it.
 fn exact<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<X, N>,
+    step: &mut StateStep<X, N>,
     watched: &Watched,
     bracket: (f64, f64),
     (guess, from): (f64, Side),
@@ -191,21 +194,21 @@ fn exact<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     statistics: &mut Statistics,
 ) -> (f64, Reading) {
     let mut last = watched.end;
+    let (tau, at) = (step.tau, (step.start.x, step.start_rates.x));
     let mut reading = |h: f64| {
-        let at = (step.start.x, step.start_rates.x);
         let evaluations = &mut statistics.evaluations;
         let (x, k) = if watched.clock_only() { at } else { restep::<X, M, N, P, Q>(frame, step, h, work, evaluations) };
-        last = read::<M, N, P, Q>(watched.surface, &x, &k, &frame.env(step.tau + h));
+        last = read::<M, N, P, Q>(watched.surface, &x, &k, &frame.env(tau + h));
         last
     };
-    let h = locate(&mut reading, step.tau, bracket, guess, from);
+    let h = locate(&mut reading, tau, bracket, guess, from);
     (h, last)
 }
 
 /// Whether a transition's `when` holds after `h`.
 fn enabled<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<X, N>,
+    step: &mut StateStep<X, N>,
     surface: Surface,
     h: f64,
     work: &mut X::Workspace<N>,

@@ -118,7 +118,10 @@ where
         if self.watched.iter().any(|w| w.suspicious(self.step.h)) {
             let (frame, step) = (self.segment.frame(), state_step::<X, N, W, C>(&self.step));
             let (work, warnings, statistics) = (&mut self.work, &mut self.warnings, &mut self.statistics);
-            found = first_events::<X, M, N, P, Q>(frame, &step, &self.watched, warnings, work, statistics);
+            let mut shorter = step;
+            let steps = (&step, &mut shorter);
+            found = first_events::<X, M, N, P, Q>(frame, steps, &self.watched, warnings, work, statistics);
+            X::expect(&mut self.step.stages, &shorter.stages);
         }
         if found.is_empty() {
             self.watched.iter_mut().for_each(|w| w.move_on());

@@ -37,6 +37,13 @@ impl Method for Explicit {
         core::array::from_fn(|s| Bundle { x: stages[s].x, q: [], dx: [], dq: [] })
     }
 
+    fn expect<const N: usize, const W: usize, const C: usize>(
+        _: &mut Self::Stages<N, W, C>,
+        _: &Self::Stages<N, 0, 0>,
+    ) {
+        // Its stages are computed one after the other: nothing is guessed.
+    }
+
     fn begin<
         M: Model<N, P, Q>,
         R: Carried<M, N, P, Q, W, C>,

@@ -70,6 +70,13 @@ pub(crate) trait Method: Copy + Debug + Send + Sync + 'static {
         stages: &Self::Stages<N, W, C>,
     ) -> Self::Stages<N, 0, 0>;
 
+    /// What the next attempt is to expect: the stages of a step that was solved for, of the same run or of one nearby, which
+    /// reaches over the same time or further. A method that solves for its stages starts from there.
+    fn expect<const N: usize, const W: usize, const C: usize>(
+        stages: &mut Self::Stages<N, W, C>,
+        solved: &Self::Stages<N, 0, 0>,
+    );
+
     /// Fills in the rates at the start of a step that begins a segment; `typical` is a typical step size. Returns a size for
     /// the first step, `None` where the start contradicts the equations.
     fn begin<
@@ -198,20 +205,19 @@ pub(crate) fn state_step<X: Method, const N: usize, const W: usize, const C: usi
     }
 }
 
-/// State and rate after `h` from the start of a step, by one step of that size.
+/// State and rate after `h` from the start of a step, by one step of that size, which replaces it.
 #[inline(never)]
 pub(crate) fn restep<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     frame: Frame<'_, P>,
-    step: &StateStep<X, N>,
+    step: &mut StateStep<X, N>,
     h: f64,
     work: &mut X::Workspace<N>,
     evaluations: &mut usize,
 ) -> ([f64; N], [f64; N]) {
-    let mut shorter = *step;
     let held = Held { frame, dp: &[], dstart: &[], columns: 0 };
-    X::attempt::<M, Bare, N, P, Q, 0, 0>(&held, &mut shorter, h, Purpose::Land, frame.tolerance, work, evaluations);
-    X::finish::<M, Bare, N, P, Q, 0, 0>(&held, &mut shorter, evaluations);
-    (shorter.end.x, shorter.end_rates.x)
+    X::attempt::<M, Bare, N, P, Q, 0, 0>(&held, step, h, Purpose::Land, frame.tolerance, work, evaluations);
+    X::finish::<M, Bare, N, P, Q, 0, 0>(&held, step, evaluations);
+    (step.end.x, step.end_rates.x)
 }
 
 /// State and rate after one step of size `h` from (`tau`, `x`), where the rate is `k`.
@@ -223,6 +229,6 @@ pub(crate) fn short_step<X: Method, M: Model<N, P, Q>, const N: usize, const P: 
 ) -> [f64; N] {
     let bundle = |x: &[f64; N]| Bundle::<N, 0, 0> { x: *x, q: [], dx: [], dq: [] };
     let (start, start_rates) = (bundle(x), bundle(k));
-    let step = Step { tau, h, start, start_rates, stages: X::stages(), end: start, end_rates: start_rates };
-    restep::<X, M, N, P, Q>(frame, &step, h, &mut X::Workspace::<N>::default(), &mut 0).0
+    let mut step = Step { tau, h, start, start_rates, stages: X::stages(), end: start, end_rates: start_rates };
+    restep::<X, M, N, P, Q>(frame, &mut step, h, &mut X::Workspace::<N>::default(), &mut 0).0
 }

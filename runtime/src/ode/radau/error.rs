@@ -12,8 +12,8 @@
 //! has to be small.
 
 use super::coefficients::Tableau;
-use super::elimination::row_scale;
 use super::stages::Workspace;
+use crate::model::Linearised;
 use crate::ode::{Blocks, Bundle, Tolerance};
 
 /// The tolerance for the error estimate of a method with `stages` stages; `factor` as said above.
@@ -40,28 +40,42 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
     /// Factorises F_k + h gamma F_x at the end of the step that was solved for last: it turns a defect into an error.
     pub fn factorise_filter(&mut self, h_gamma: f64) -> bool {
         let at = &self.end;
-        for a in 0..N {
-            let scale = row_scale(at, h_gamma, a);
-            for b in 0..N {
-                self.filter.set(a, b, Some(&[[scale * (at.dk[b][a] + h_gamma * at.dx[b][a])]]));
+        self.filter.resize(N);
+        self.filter_scales = row_scales(at, h_gamma);
+        for b in 0..N {
+            let column = self.filter.column(b);
+            for a in 0..N {
+                column[a] = self.filter_scales[a] * (at.dk[b][a] + h_gamma * at.dx[b][a]);
             }
         }
         self.filter.factorise()
     }
 
-    /// (F_k + h gamma F_x)^-1 F_k d, with `h_gamma` as in [`Self::factorise_filter`].
-    pub fn filtered(&mut self, h_gamma: f64, d: &[f64; N]) -> [f64; N] {
-        let at = &self.end;
-        let right = |a: usize| {
-            let mut sum = 0.0;
-            for b in 0..N {
-                sum += at.dk[b][a] * d[b];
+    /// (F_k + h gamma F_x)^-1 F_k d, with the h gamma of [`Self::factorise_filter`].
+    pub fn filtered(&mut self, d: &[f64; N]) -> [f64; N] {
+        let mut right = [0.0; N];
+        for b in 0..N {
+            for a in 0..N {
+                right[a] += self.end.dk[b][a] * d[b];
             }
-            [row_scale(at, h_gamma, a) * sum]
-        };
-        let e = self.filter.solve(right);
-        core::array::from_fn(|a| e[a][0])
+        }
+        for a in 0..N {
+            right[a] *= self.filter_scales[a];
+        }
+        let e = self.filter.solve(&right);
+        core::array::from_fn(|a| e[a])
     }
+}
+
+/// The inverse of the largest derivative of each equation; 1 where all vanish, which is found when factorising.
+fn row_scales<const N: usize>(at: &Linearised<f64, N>, h: f64) -> [f64; N] {
+    let mut largest = [0.0_f64; N];
+    for b in 0..N {
+        for a in 0..N {
+            largest[a] = largest[a].max(at.dk[b][a].abs()).max((h * at.dx[b][a]).abs());
+        }
+    }
+    largest.map(|v| if v > 0.0 { 1.0 / v } else { 1.0 })
 }
 
 /// Largest root mean square of `e` over the blocks of `start`, relative to the tolerance; NaN wins.

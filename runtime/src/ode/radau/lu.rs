@@ -1,141 +1,173 @@
-//! Dense factorisation with partial pivoting of a matrix of at most N x N blocks of S x S.
+//! Dense factorisation with partial pivoting of a square matrix.
 //!
-//! Rows lie in memory one after the other and are worked on a block at a time. A finished row of U has zeros up to and with
-//! its diagonal (whose inverse is kept apart), so that whole blocks can be added without looking where the diagonal is; rows of
-//! L are copied out before that.
+//! Columns lie in memory one after the other in groups of four rows, so that whole groups are worked on at once, and the number of
+//! groups is known when that is compiled. Entries on the wrong side of the diagonal are zeros: of L in `lower`, whose
+//! unit diagonal is not stored, of U, whose diagonal is stored inverted, in `columns`.
 
-/// A row: N blocks of S entries.
-type Row<const S: usize, const N: usize> = [[f64; S]; N];
+use crate::scalar::Scalar;
+
+/// Four rows of a column.
+type Group = [f64; GROUP];
+const GROUP: usize = 4;
 
 /// A factorised matrix; also its room.
-#[derive(Clone, Debug)]
-pub(super) struct Factors<const S: usize, const N: usize> {
-    /// Blocks in a row that are used.
-    blocks: usize,
-    /// The matrix, then U.
-    rows: Vec<Row<S, N>>,
-    /// L below its unit diagonal, zeros elsewhere.
-    lower: Vec<Row<S, N>>,
-    inverses: Vec<f64>,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Factors {
+    /// Rows and columns.
+    n: usize,
+    /// Groups in a column.
+    height: usize,
+    /// The matrix, then U above its diagonal.
+    columns: Vec<Group>,
+    /// L below its diagonal.
+    lower: Vec<Group>,
+    /// Inverse diagonal of U.
+    inverses: Vec<Group>,
+    /// Which rows the factors' rows were.
     order: Vec<usize>,
-    solution: Row<S, N>,
+    /// The solution.
+    solution: Vec<Group>,
 }
 
-impl<const S: usize, const N: usize> Default for Factors<S, N> {
-    fn default() -> Self {
-        let (n, zero) = (N * S, [[0.0; S]; N]);
-        let (rows, lower, inverses) = (vec![zero; n], vec![zero; n], vec![0.0; n]);
-        Self { blocks: N, rows, lower, inverses, order: (0..n).collect(), solution: zero }
-    }
-}
-
-impl<const S: usize, const N: usize> Factors<S, N> {
-    /// Uses the first `blocks` blocks of rows and columns.
-    pub(super) fn resize(&mut self, blocks: usize) {
-        self.blocks = blocks.min(N);
-    }
-
-    /// Sets a block; `None` is zero. The largest entries of rows should be of similar size.
-    #[inline]
-    pub(super) fn set(&mut self, row: usize, column: usize, entries: Option<&[[f64; S]; S]>) {
-        for (i, row) in self.rows[row * S..(row + 1) * S].iter_mut().enumerate() {
-            row[column] = entries.map_or([0.0; S], |entries| entries[i]);
+/// Calls what is compiled for each height; a matrix takes the next larger one.
+macro_rules! with_height {
+    ($height:expr, $h:ident => $call:expr, $else:expr) => {
+        with_height!(@ $height, $h => $call, $else; 1 2 3 4 5 6 8 12 16 24 40 80)
+    };
+    (@ $height:expr, $h:ident => $call:expr, $else:expr; $($size:literal)+) => {
+        match $height {
+            $($size => { const $h: usize = $size; $call })+
+            _ => $else,
         }
+    };
+}
+
+/// The heights of [`with_height`].
+const HEIGHTS: [usize; 12] = [1, 2, 3, 4, 5, 6, 8, 12, 16, 24, 40, 80];
+
+impl Factors {
+    /// Makes room for `n` rows and columns, at most 320.
+    pub(super) fn resize(&mut self, n: usize) {
+        if self.n == n && self.height > 0 {
+            return;
+        }
+        self.n = n;
+        self.height = HEIGHTS.into_iter().find(|height| n <= GROUP * height).unwrap_or(0);
+        let zero = [0.0; GROUP];
+        for room in [&mut self.columns, &mut self.lower] {
+            room.clear();
+            room.resize(GROUP * self.height * self.height, zero);
+        }
+        self.solution.resize(self.height, zero);
+        self.inverses.resize(self.height, zero);
+        self.order = (0..GROUP * self.height).collect();
+    }
+
+    /// The entries of a column, to be filled in. The largest entries of rows should be of similar size.
+    #[inline]
+    pub(super) fn column(&mut self, k: usize) -> &mut [f64] {
+        let first = k * self.height;
+        self.columns[first..first + self.height].as_flattened_mut()
     }
 
     /// Replaces the entries by their factors; false when the matrix is singular or not finite.
-    #[inline]
     pub(super) fn factorise(&mut self) -> bool {
+        with_height!(self.height, H => self.eliminate::<H>(), false)
+    }
+
+    /// The solution for the right-hand side `b`; after a successful [`Self::factorise`].
+    pub(super) fn solve(&mut self, b: &[f64]) -> &[f64] {
+        with_height!(self.height, H => self.substitute::<H>(b), ());
+        &self.solution.as_flattened()[..self.n]
+    }
+
+    fn eliminate<const H: usize>(&mut self) -> bool {
         for (i, slot) in self.order.iter_mut().enumerate() {
             *slot = i;
         }
-        (0..self.blocks).all(|block| (0..S).all(|column| self.eliminate(block, column)))
-    }
-
-    /// Makes zeros below the diagonal in one column.
-    #[inline]
-    fn eliminate(&mut self, block: usize, column: usize) -> bool {
-        let (j, n) = (block * S + column, self.blocks * S);
-        let rows = &mut self.rows[j..n];
-        let (mut pivot, mut largest, mut value) = (0, -1.0, 0.0);
-        for (i, row) in rows.iter().enumerate() {
-            let entry: f64 = row[block][column];
-            if entry.abs() > largest {
-                (pivot, largest, value) = (i, entry.abs(), entry);
+        let (columns, _) = self.columns.as_chunks_mut::<H>();
+        let (lowers, _) = self.lower.as_chunks_mut::<H>();
+        let inverses = self.inverses.as_flattened_mut();
+        for j in 0..self.n {
+            let (pivot, value) = largest(&columns[j].as_flattened()[j..self.n]);
+            // A column of NaN finds no pivot; one NaN among numbers spreads to the next columns.
+            if value == 0.0 || !value.is_finite() {
+                return false;
             }
-        }
-        // A column of NaN finds no pivot; one NaN among numbers spreads to the next columns.
-        if value == 0.0 || !value.is_finite() {
-            return false;
-        }
-        rows.swap(0, pivot);
-        self.order.swap(j, j + pivot);
-        let inverse = 1.0 / value;
-        self.inverses[j] = inverse;
-        let Some((finished, below)) = rows.split_first_mut() else {
-            return false;
-        };
-        let lower = &mut self.lower[j];
-        lower[..block].copy_from_slice(&finished[..block]);
-        for i in 0..S {
-            lower[block][i] = if i < column { finished[block][i] } else { 0.0 };
-            if i <= column {
-                finished[block][i] = 0.0;
-            }
-        }
-        let finished = &finished[block..self.blocks];
-        for row in below {
-            let factor = row[block][column] * inverse;
-            if factor != 0.0 {
-                for (group, other) in row[block..].iter_mut().zip(finished) {
-                    for i in 0..S {
-                        group[i] -= factor * other[i];
-                    }
+            if pivot > 0 {
+                self.order.swap(j, j + pivot);
+                for column in lowers[..j].iter_mut().chain(&mut columns[j..self.n]) {
+                    column.as_flattened_mut().swap(j, j + pivot);
                 }
             }
-            row[block][column] = factor;
+            inverses[j] = 1.0 / value;
+            let Some((finished, rest)) = columns[j..self.n].split_first_mut() else {
+                return false;
+            };
+            let lower = split(finished, j, inverses[j]);
+            for column in rest {
+                let factor = column.as_flattened()[j];
+                *column = less(*column, factor, &lower);
+            }
+            lowers[j] = lower;
         }
         true
     }
 
-    /// The solution for a right-hand side, given block by block; after a successful [`Self::factorise`].
-    #[inline]
-    pub(super) fn solve(&mut self, b: impl Fn(usize) -> [f64; S]) -> &[[f64; S]] {
-        let mut right = [[0.0; S]; N];
-        for (block, slot) in right.iter_mut().enumerate().take(self.blocks) {
-            *slot = b(block);
+    fn substitute<const H: usize>(&mut self, b: &[f64]) {
+        let mut x = [[0.0; GROUP]; H];
+        for (slot, &row) in x.as_flattened_mut().iter_mut().zip(&self.order[..self.n]) {
+            *slot = b[row];
         }
-        let x = &mut self.solution[..self.blocks];
-        for (slot, &i) in x.as_flattened_mut().iter_mut().zip(&self.order) {
-            *slot = right.as_flattened()[i];
+        let (columns, _) = self.columns.as_chunks::<H>();
+        let (lowers, _) = self.lower.as_chunks::<H>();
+        // What lies beyond row n stays zero.
+        for (j, lower) in lowers[..self.n].iter().enumerate() {
+            let factor = x.as_flattened()[j];
+            x = less(x, factor, lower);
         }
-        for block in 0..x.len() {
-            for column in 0..S {
-                let sum = product(&self.lower[block * S + column][..=block], x);
-                x[block][column] -= sum;
-            }
+        let inverses = &self.inverses.as_flattened()[..self.n];
+        for ((j, column), inverse) in columns[..self.n].iter().enumerate().zip(inverses).rev() {
+            let value = x.as_flattened()[j] * inverse;
+            x = less(x, value, column);
+            x.as_flattened_mut()[j] = value;
         }
-        for block in (0..x.len()).rev() {
-            for column in (0..S).rev() {
-                let j = block * S + column;
-                let sum = product(&self.rows[j][block..self.blocks], &x[block..]);
-                x[block][column] = (x[block][column] - sum) * self.inverses[j];
-            }
-        }
-        x
+        self.solution.copy_from_slice(&x);
     }
 }
 
-/// Scalar product, block by block.
+/// Place and value of the entry that is largest in magnitude; 0 where there is none.
 #[inline]
-fn product<const S: usize>(a: &[[f64; S]], b: &[[f64; S]]) -> f64 {
-    let mut sums = [0.0; S];
-    for (a, b) in a.iter().zip(b) {
-        for i in 0..S {
-            sums[i] += a[i] * b[i];
+fn largest(entries: &[f64]) -> (usize, f64) {
+    let (mut place, mut size, mut value) = (0, -1.0, 0.0);
+    for (i, &entry) in entries.iter().enumerate() {
+        if entry.abs() > size {
+            (place, size, value) = (i, entry.abs(), entry);
         }
     }
-    sums.iter().sum()
+    (place, value)
+}
+
+/// The column of L that `column` makes, with `inverse` the inverse of entry `j` on the diagonal; leaves the column of U.
+#[inline(always)]
+fn split<const H: usize>(column: &mut [Group; H], j: usize, inverse: f64) -> [Group; H] {
+    let mut lower = [[0.0; GROUP]; H];
+    for (i, (lower, entry)) in lower.as_flattened_mut().iter_mut().zip(column.as_flattened_mut()).enumerate() {
+        *lower = if i > j { *entry * inverse } else { 0.0 };
+        *entry = if i < j { *entry } else { 0.0 };
+    }
+    lower
+}
+
+/// `target - factor * column`.
+#[inline(always)]
+fn less<const H: usize>(mut target: [Group; H], factor: f64, column: &[Group; H]) -> [Group; H] {
+    for h in 0..H {
+        for i in 0..GROUP {
+            target[h][i] = Scalar::mul_add(-factor, column[h][i], target[h][i]);
+        }
+    }
+    target
 }
 
 #[cfg(test)]
@@ -143,44 +175,45 @@ mod tests {
     use super::Factors;
     use nalgebra::{DMatrix, DVector};
 
-    fn solves<const S: usize, const N: usize>(blocks: usize) {
-        let n = blocks * S;
+    fn solves(factors: &mut Factors, n: usize) {
         let entry = |i: usize, j: usize| {
             if (i + j) % 3 == 1 { 0.0 } else { ((3 * i + 5 * j + i * j + 1) as f64).sin() }
         };
         let b = DVector::from_fn(n, |i, _| (i as f64).cos());
-        let mut factors = Factors::<S, N>::default();
-        factors.resize(blocks);
-        for row in 0..blocks {
-            for column in 0..blocks {
-                let block = core::array::from_fn(|i| core::array::from_fn(|j| entry(row * S + i, column * S + j)));
-                factors.set(row, column, Some(&block));
+        factors.resize(n);
+        for j in 0..n {
+            let column = factors.column(j);
+            for i in 0..n {
+                column[i] = entry(i, j);
             }
         }
         assert!(factors.factorise());
-        let x = factors.solve(|block| core::array::from_fn(|i| b[block * S + i]));
+        let x = factors.solve(b.as_slice());
         let exact = DMatrix::from_fn(n, n, entry).lu().solve(&b);
-        for (a, b) in x.as_flattened().iter().zip(exact.iter().flatten()) {
-            approx::assert_relative_eq!(*a, *b, max_relative = 1e-10);
+        assert_eq!(x.len(), n);
+        for (a, b) in x.iter().zip(exact.iter().flatten()) {
+            approx::assert_relative_eq!(*a, *b, max_relative = 1e-9);
         }
     }
 
     #[test]
     fn solves_what_nalgebra_solves() {
-        solves::<1, 1>(1);
-        solves::<1, 4>(4);
-        solves::<3, 2>(2);
-        solves::<5, 4>(2);
-        solves::<5, 4>(4);
-        solves::<3, 7>(6);
+        // In one room, which grows and shrinks.
+        let mut factors = Factors::default();
+        for n in [1, 4, 6, 10, 27, 18, 3] {
+            solves(&mut factors, n);
+        }
+        factors.resize(0);
+        assert!(factors.factorise() && factors.solve(&[]).is_empty());
     }
 
     #[test]
     fn refuses_singular_matrices() {
         for entry in [0.0, 1.0, f64::NAN, f64::INFINITY] {
-            let mut factors = Factors::<3, 2>::default();
-            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                factors.set(row, column, (entry != 0.0).then_some(&[[entry; 3]; 3]));
+            let mut factors = Factors::default();
+            factors.resize(6);
+            for j in 0..6 {
+                factors.column(j)[..6].fill(entry);
             }
             assert!(!factors.factorise(), "{entry}");
         }

@@ -7,12 +7,13 @@
 //! those of the last stage.
 //!
 //! `coefficients` has the methods, `stages` solves for the rates of the state, `variations` differentiates the solution,
-//! `polynomial` is the collocation polynomial (dense output, prediction), `error` the error estimate, `elimination` and `lu` the
-//! linear algebra.
+//! `polynomial` is the collocation polynomial (dense output, prediction), `error` the error estimate, `elimination`, `lu` and
+//! `fused` the linear algebra.
 
 mod coefficients;
 mod elimination;
 mod error;
+mod fused;
 mod lu;
 mod polynomial;
 mod stages;

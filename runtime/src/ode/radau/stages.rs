@@ -5,7 +5,7 @@
 //! as the iteration contracts well.
 
 use super::coefficients::Tableau;
-use super::elimination::System;
+use super::elimination::{Solution, System};
 use super::lu::Factors;
 use super::polynomial::weighted;
 use crate::model::Linearised;
@@ -14,6 +14,8 @@ use crate::model::Linearised;
 const ITERATIONS: usize = 14;
 /// A matrix is kept where it will take so many more iterations at most: a new one costs about as much.
 const PATIENCE: f64 = 5.0;
+/// A matrix serves for steps that differ from its own by this fraction.
+const NEARLY: f64 = 1e-4;
 
 /// An equation F(tau, x, k) = 0 for the rate k of the state x.
 pub trait Implicit<const N: usize> {
@@ -33,20 +35,41 @@ pub struct Workspace<const N: usize, const S: usize> {
     pub(super) linearised: [Linearised<f64, N>; S],
     /// The equations of all stages.
     pub(super) stages: System<N, S>,
+    /// The step whose matrix is factorised: its tau, size and state at the start.
+    made: Option<(f64, f64, [f64; N])>,
     /// Derivatives at the last stage, where the matrix of Newton's method was made.
     pub(super) end: Linearised<f64, N>,
     /// The matrix of the error estimate.
-    pub(super) filter: Factors<1, N>,
+    pub(super) filter: Factors,
+    /// What its rows were multiplied with.
+    pub(super) filter_scales: [f64; N],
 }
 
 impl<const N: usize, const S: usize> Default for Workspace<N, S> {
     fn default() -> Self {
         let zero = Linearised { value: [0.0; N], dx: [[0.0; N]; N], dk: [[0.0; N]; N] };
-        Self { linearised: [zero; S], stages: System::default(), end: zero, filter: Factors::default() }
+        Self {
+            linearised: [zero; S],
+            stages: System::default(),
+            made: None,
+            end: zero,
+            filter: Factors::default(),
+            filter_scales: [1.0; N],
+        }
     }
 }
 
 impl<const N: usize, const S: usize> Workspace<N, S> {
+    /// Forgets the matrix: the equations may have changed.
+    pub fn forget(&mut self) {
+        self.made = None;
+    }
+
+    /// Whether the matrix is that of a step from the same start of nearly this size.
+    fn stands(&self, (tau, h): (f64, f64), x: &[f64; N]) -> bool {
+        self.made.is_some_and(|(t, size, start)| t == tau && start == *x && (h - size).abs() <= NEARLY * size)
+    }
+
     /// Linearises at the stages with rates `k` and factorises; false when the matrix is singular.
     pub(super) fn linearise<E: Implicit<N>>(
         &mut self,
@@ -59,7 +82,9 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
         for (i, slot) in self.linearised.iter_mut().enumerate() {
             *slot = equation.linearised(tau + tableau.c[i] * h, &state_at(tableau, i, h, x, k), &k[i]);
         }
-        self.stages.factorise(&tableau.a, h, &self.linearised)
+        let regular = self.stages.factorise(tableau, h, &self.linearised);
+        self.made = regular.then_some((tau, h, *x));
+        regular
     }
 }
 
@@ -88,7 +113,7 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
     scale: &[f64; N],
     work: &mut Workspace<N, S>,
 ) -> Option<usize> {
-    let (mut before, mut stale) = (f64::INFINITY, true);
+    let (mut before, mut stale) = (f64::INFINITY, !work.stands((tau, h), x));
     for iteration in 1..=ITERATIONS {
         let mut step = [[0.0; N]; S];
         if stale {
@@ -105,12 +130,12 @@ pub fn solve<E: Implicit<N>, const N: usize, const S: usize>(
             }
         }
         let step = work.stages.solve(&step);
-        for (k, step) in k.iter_mut().zip(&step) {
+        for (k, step) in k.iter_mut().zip(&step.rates) {
             for a in 0..N {
                 k[a] -= step[a];
             }
         }
-        let size = largest(tableau, h, &step, scale);
+        let size = largest(&step, scale);
         if !size.is_finite() {
             return None;
         }
@@ -147,17 +172,16 @@ const STAGNATION: f64 = 0.3;
 const ROUNDING: f64 = 32.0;
 
 /// Largest change of a stage's state, relative to `scale`.
-fn largest<const N: usize, const S: usize>(tableau: &Tableau<S>, h: f64, step: &Rates<N, S>, scale: &[f64; N]) -> f64 {
+fn largest<const N: usize, const S: usize>(step: &Solution<N, S>, scale: &[f64; N]) -> f64 {
     let mut worst = 0.0;
-    for i in 0..S {
-        let change = weighted(&tableau.a[i], step);
-        for a in 0..N {
-            let size = (h * change[a] / scale[a]).abs();
+    for a in 0..N {
+        let mut state = 0.0_f64;
+        for change in step.increments[a] {
             // NaN wins, and stays.
-            if size > worst || size.is_nan() {
-                worst = size;
-            }
+            state = if change.abs() > state || change.is_nan() { change.abs() } else { state };
         }
+        let size = state / scale[a];
+        worst = if size > worst || size.is_nan() { size } else { worst };
     }
     worst
 }

@@ -33,6 +33,6 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
                 right[i][a] = -sum;
             }
         }
-        self.stages.solve(&right)
+        self.stages.solve(&right).rates
     }
 }
