@@ -2,7 +2,7 @@
 
 use super::{Carried, Frame, Held, Method, Point, Purpose, StateStep, StepOf, Typical};
 use crate::model::Model;
-use crate::ode::explicit::{Dense, ERROR_ORDER, Stages, attempt, error, stiffness};
+use crate::ode::explicit::{Dense, ERROR_ORDER, Stages, attempt, error, stage_times, stiffness};
 use crate::ode::{Bundle, Controller, Tolerance, first_step};
 use crate::return_map;
 
@@ -191,5 +191,7 @@ fn stages<
     start: &Bundle<N, W, C>,
     stages: &mut Stages<Bundle<N, W, C>>,
 ) -> Bundle<N, W, C> {
-    attempt(&|tau: f64, y: &Bundle<N, W, C>| R::rates(held, tau, y), tau, h, start, stages)
+    let times = stage_times(tau, h);
+    let rates = |i: usize, y: &Bundle<N, W, C>| R::rates(held, times.get(i - 1).copied().unwrap_or(tau), y);
+    attempt(&rates, h, start, stages)
 }

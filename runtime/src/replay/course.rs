@@ -7,12 +7,16 @@
 use super::moving::{Moving, within};
 use super::number::Number;
 use super::plan::{Leg, Plan};
-use super::segment::Segment;
+use super::segment::{ROOM, Segment};
 use crate::model::{Model, Section};
 use crate::ode::Tolerance;
-use crate::ode::explicit::{Stages, attempt};
+use crate::ode::explicit::{Stages, attempt, stage_times};
 use crate::sensitivity::through;
 use core::marker::PhantomData;
+use smallvec::SmallVec;
+
+/// Stages of a step but the first, whose rates are known; the last is at the step's end.
+const STEPS: usize = 11;
 
 /// A replay of a plan of model M: numbers S, N states, P parameters, C columns of variations.
 pub(crate) struct Course<'a, M, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize> {
@@ -33,7 +37,7 @@ pub(crate) struct Course<'a, M, S: Number, const N: usize, const P: usize, const
     /// Lanes that are not declined.
     pub(crate) valid: S::Mask,
     /// Readings (value and rate) of the watched surfaces where the replay is.
-    pub(crate) readings: Vec<(S, S)>,
+    pub(crate) readings: SmallVec<[(S, S); ROOM]>,
     /// Where the section stands, ...
     pub(crate) section: Section,
     /// ... and, if it stands before a transition, state and variations there.
@@ -56,7 +60,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
             tau: zero,
             stages: [none; 12],
             valid: S::mask(true),
-            readings: Vec::new(),
+            readings: SmallVec::new(),
             section,
             on_section: none,
             kind: PhantomData,
@@ -159,10 +163,15 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     #[inline(never)]
     pub(crate) fn step(&mut self, h: S) -> (Moving<S, N, C>, Moving<S, N, C>) {
         let Self { segment, stages, tau, at, .. } = self;
-        let rates = |tau: S, y: &Moving<S, N, C>| segment.rates::<M, N, Q>(tau, y);
+        let times = stage_times(*tau, h);
+        let clocks = S::clocks::<M, STEPS, N, P, Q, C>(segment, times);
+        let rates = |i: usize, y: &Moving<S, N, C>| {
+            let i = (i - 1).min(STEPS - 1);
+            segment.rates_with::<M, N, Q>(times[i], &clocks[i], y)
+        };
         stages[0] = self.rates;
-        let end = attempt(&rates, *tau, h, at, stages);
-        let last = rates(*tau + h, &end);
+        let end = attempt(&rates, h, at, stages);
+        let last = rates(STEPS, &end);
         (end, last)
     }
 

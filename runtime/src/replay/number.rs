@@ -1,6 +1,8 @@
 //! The numbers that a replay computes with: reals, lanes of reals, and dual numbers over either.
 
-use crate::scalar::{Real, Scalar};
+use super::segment::Segment;
+use crate::model::{Env, Model};
+use crate::scalar::{Lanes, Real, Scalar};
 use crate::sensitivity::Dual;
 
 /// A number whose values (without the derivatives that it carries) can be looked at, lane by lane.
@@ -17,6 +19,18 @@ pub(crate) trait Number: Scalar {
     /// Whether a mask holds in a lane; false where there is no such lane.
     fn holds(mask: Self::Mask, index: usize) -> bool;
 
+    /// The terms of the clock at several times.
+    #[inline(always)]
+    fn clocks<M, const T: usize, const N: usize, const P: usize, const Q: usize, const C: usize>(
+        segment: &Segment<'_, Self, P, C>,
+        times: [Self; T],
+    ) -> [M::Clock<Self>; T]
+    where
+        M: Model<N, P, Q>,
+    {
+        times.map(|tau| M::clock(segment.mode, &segment.env(tau)))
+    }
+
     /// Whether a mask holds in all lanes.
     fn all(mask: Self::Mask) -> bool {
         (0..Self::LANES).all(|lane| Self::holds(mask, lane))
@@ -29,21 +43,51 @@ pub(crate) trait Number: Scalar {
     }
 }
 
-impl<R: Real> Number for R {
-    const LANES: usize = R::LANES;
-    const ORDER: usize = 0;
+macro_rules! real {
+    () => {
+        const LANES: usize = <Self as Real>::LANES;
+        const ORDER: usize = 0;
 
-    #[inline]
-    fn from_values(value: impl FnMut(usize) -> f64) -> Self {
-        R::from_lanes(value)
-    }
-    #[inline]
-    fn lane(self, index: usize) -> f64 {
-        R::lane(self, index)
-    }
-    #[inline]
-    fn holds(mask: R::Mask, index: usize) -> bool {
-        R::holds(mask, index)
+        #[inline]
+        fn from_values(value: impl FnMut(usize) -> f64) -> Self {
+            <Self as Real>::from_lanes(value)
+        }
+        #[inline]
+        fn lane(self, index: usize) -> f64 {
+            <Self as Real>::lane(self, index)
+        }
+        #[inline]
+        fn holds(mask: Self::Mask, index: usize) -> bool {
+            <Self as Real>::holds(mask, index)
+        }
+    };
+}
+
+impl Number for Lanes {
+    real!();
+}
+
+impl Number for f64 {
+    real!();
+
+    /// The times side by side in lanes: they do not wait for each other as the stages of a step do.
+    #[inline(always)]
+    fn clocks<M, const T: usize, const N: usize, const P: usize, const Q: usize, const C: usize>(
+        segment: &Segment<'_, f64, P, C>,
+        times: [f64; T],
+    ) -> [M::Clock<f64>; T]
+    where
+        M: Model<N, P, Q>,
+    {
+        const WIDTH: usize = <Lanes as Real>::LANES;
+        let group = |first: usize| {
+            let tau = Lanes::from_lanes(|lane| times.get(first + lane).copied().unwrap_or(0.0));
+            let p = segment.p.map(Lanes::constant);
+            let t = tau + Lanes::constant(segment.start);
+            M::clock(segment.mode, &Env { tau, t, p: &p, memory: &segment.wide_memory, branch: &segment.wide_branch })
+        };
+        let (first, second) = (group(0), group(WIDTH));
+        core::array::from_fn(|i| M::clock_lane(if i < WIDTH { &first } else { &second }, i % WIDTH))
     }
 }
 

@@ -4,7 +4,12 @@ use super::moving::Moving;
 use super::number::Number;
 use crate::event::Surface;
 use crate::model::{Env, Gradient, Model};
+use crate::scalar::{LaneMask, Lanes, Scalar};
 use crate::sensitivity::Dual;
+use smallvec::SmallVec;
+
+/// So many numbers of a kind need no allocation.
+pub(crate) const ROOM: usize = 8;
 
 /// Mode, start of the clock, parameters, memory, selectors: numbers S, P parameters, C columns.
 #[derive(Clone, Debug)]
@@ -14,9 +19,12 @@ pub(crate) struct Segment<'a, S: Number, const P: usize, const C: usize> {
     /// Parameters.
     pub(crate) p: &'a [S; P],
     /// Memory.
-    pub(crate) memory: Vec<S>,
+    pub(crate) memory: SmallVec<[S; ROOM]>,
     /// Branch selectors.
-    pub(crate) branch: Vec<S::Mask>,
+    pub(crate) branch: SmallVec<[S::Mask; ROOM]>,
+    /// Memory and selectors again, the same in all lanes: for terms of the clock, where numbers are single.
+    pub(crate) wide_memory: SmallVec<[Lanes; ROOM]>,
+    pub(crate) wide_branch: SmallVec<[LaneMask; ROOM]>,
     /// Time since the start of the replay at which the clock was 0, ...
     pub(crate) start: S,
     /// ... and its variations.
@@ -27,7 +35,16 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
     /// Nothing yet.
     pub(crate) fn new(p: &'a [S; P]) -> Self {
         let zero = S::constant(0.0);
-        Self { mode: usize::MAX, p, memory: Vec::new(), branch: Vec::new(), start: zero, dstart: [zero; C] }
+        Self {
+            mode: usize::MAX,
+            p,
+            memory: SmallVec::new(),
+            branch: SmallVec::new(),
+            wide_memory: SmallVec::new(),
+            wide_branch: SmallVec::new(),
+            start: zero,
+            dstart: [zero; C],
+        }
     }
 
     /// The environment at `tau`.
@@ -40,12 +57,20 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
     pub(crate) fn set_branch(&mut self, branch: &[bool]) {
         self.branch.clear();
         self.branch.extend(branch.iter().map(|b| S::mask(*b)));
+        if S::ORDER == 0 && S::LANES == 1 {
+            self.wide_branch.clear();
+            self.wide_branch.extend(branch.iter().map(|b| Lanes::mask(*b)));
+        }
     }
 
     /// Takes this memory.
     pub(crate) fn set_memory(&mut self, memory: &[f64]) {
         self.memory.clear();
         self.memory.extend(memory.iter().map(|m| S::constant(*m)));
+        if S::ORDER == 0 && S::LANES == 1 {
+            self.wide_memory.clear();
+            self.wide_memory.extend(memory.iter().map(|m| Lanes::constant(*m)));
+        }
     }
 
     /// State after a transition; the memory becomes that after it.
@@ -75,13 +100,23 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
     }
 
     /// Rates of state and variations.
-    #[inline]
     pub(crate) fn rates<M: Model<N, P, Q>, const N: usize, const Q: usize>(
         &self,
         tau: S,
         y: &Moving<S, N, C>,
     ) -> Moving<S, N, C> {
-        let (x, mut dx) = M::variational(self.mode, &y.x, &y.dx, &self.env(tau));
+        self.rates_with::<M, N, Q>(tau, &M::clock(self.mode, &self.env(tau)), y)
+    }
+
+    /// The same, where the terms of the clock are known.
+    #[inline(always)]
+    pub(crate) fn rates_with<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        tau: S,
+        clock: &M::Clock<S>,
+        y: &Moving<S, N, C>,
+    ) -> Moving<S, N, C> {
+        let (x, mut dx) = M::variational_at(self.mode, &y.x, &y.dx, clock, &self.env(tau));
         if M::INFO.uses_time && C > 0 {
             let by_t = self.along_time::<M, N, Q>(tau, &y.x, S::constant(0.0), &[S::constant(0.0); N]);
             for c in 0..C {
@@ -103,7 +138,7 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
         dx: &[S; N],
     ) -> [S; N] {
         let fixed = |value: S| Dual { value, derivative: [S::constant(0.0)] };
-        let memory: Vec<Dual<S>> = self.memory.iter().map(|m| fixed(*m)).collect();
+        let memory: SmallVec<[Dual<S>; ROOM]> = self.memory.iter().map(|m| fixed(*m)).collect();
         let env = Env {
             tau: Dual { value: tau, derivative: [dtau] },
             t: Dual::variable(self.start + tau, 0),

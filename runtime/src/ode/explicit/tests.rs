@@ -99,7 +99,8 @@ fn one_step(tau: f64, h: f64) -> Step<Plane, Stages<Plane>> {
     let start = plane([tau.tan(), 1.0 / tau.cos()]);
     let mut stages = [start; 12];
     stages[0] = rates(tau, &start);
-    let end = attempt(&rates, tau, h, &start, &mut stages);
+    let times = stage_times(tau, h);
+    let end = attempt(&|i, y: &Plane| rates(times[i - 1], y), h, &start, &mut stages);
     Step { tau, h, start, start_rates: stages[0], stages, end, end_rates: rates(tau + h, &end) }
 }
 
