@@ -6,6 +6,7 @@
 mod maps;
 
 use gaitc::models::MODELS;
+use gaitc_runtime::batch::{Batch, batch};
 use gaitc_runtime::return_map::{
     Accuracy, Images, MapOutcome, MapRequest, MapResult, Plan, Points, SecondOrder, Sensitivity,
 };
@@ -150,6 +151,50 @@ fn second_derivatives_are_those_of_exact_first_ones() {
             // Differences have errors of their own, truncation and rounding: some step size has to agree.
             let off = [1e-3, 3e-4, 1e-4, 3e-5].map(|h| planned.off_differences(&exact, j, h));
             assert!(off.iter().any(|off| *off < 2e-8), "{} direction {j}: {off:?}", planned.name());
+        }
+    }
+}
+
+/// Points around a gait, some of them far off, with parameters of their own.
+fn cloud(planned: &Planned, count: usize) -> (Vec<f64>, Vec<f64>) {
+    let (mut z, mut p) = (Vec::new(), Vec::new());
+    for i in 0..count {
+        let size = if i % 7 == 3 { 0.3 } else { 1e-5 } * (i as f64).sin();
+        z.extend(planned.z.iter().map(|z| z * (1.0 + size)));
+        p.extend(planned.machine.parameters.iter().map(|p| p * (1.0 + 0.1 * size)));
+    }
+    (z, p)
+}
+
+fn in_pool(threads: usize, planned: &Planned, z: &[f64], p: &[f64]) -> Batch {
+    let memory = planned.machine.model.memory();
+    let request = request(&planned.machine, &planned.z, &planned.machine.parameters, &memory);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let points = Points { coordinates: z, parameters: p };
+    pool.install(|| batch(planned.machine.model.compiled, Some(&planned.plan), &request, points).unwrap())
+}
+
+#[test]
+fn a_batch_has_the_same_bits_however_it_is_split_and_is_what_full_runs_are() {
+    for planned in Planned::all() {
+        let (d, parameters) = (planned.z.len(), planned.machine.parameters.len());
+        let (z, p) = cloud(&planned, 600);
+        let whole = in_pool(1, &planned, &z, &p);
+        // NaN marks what did not reach the section, and is not equal to itself.
+        let text = |batch: &Batch| format!("{batch:?}");
+        assert_eq!(text(&in_pool(3, &planned, &z, &p)), text(&whole), "{}", planned.name());
+        // Without the first five, all others stand in other lanes.
+        let rest = in_pool(2, &planned, &z[5 * d..], &p[5 * parameters..]);
+        assert_eq!(rest.images.held, whole.images.held[5..], "{}", planned.name());
+        let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&rest.images.coordinates), bits(&whole.images.coordinates[5 * d..]), "{}", planned.name());
+        assert_eq!(bits(&rest.images.jacobians), bits(&whole.images.jacobians[5 * d * d..]), "{}", planned.name());
+        assert!(whole.in_full < 300, "{}: {} of 600 in full", planned.name(), whole.in_full);
+        for point in [0, 1, 3, 10, 599].into_iter().filter(|i| whole.images.held[*i]) {
+            let map = planned.adaptive(&z[point * d..][..d], &p[point * parameters..][..parameters]);
+            for (a, b) in whole.images.jacobian(point, d).iter().zip(map.jacobian.iter()) {
+                assert!((a - b).abs() < 1e-10 * map.jacobian.amax().max(1.0), "{} {point}: {a} {b}", planned.name());
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Runtime of gaitc: integrates compiled hybrid models, linearises their return maps exactly, finds and optimises gaits.
 
 pub(crate) mod also_zero;
+pub mod batch;
 pub(crate) mod closing;
 pub(crate) mod event;
 pub mod hybrid;

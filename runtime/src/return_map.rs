@@ -251,6 +251,8 @@ pub enum RequestError {
 }
 
 /// A model's return map with sizes erased.
+///
+/// What concerns plans has defaults for maps that have none: every map is then run in full.
 pub trait ReturnMap: Send + Sync {
     /// Names, units and structure.
     fn info(&self) -> &'static ModelInfo;
@@ -266,20 +268,29 @@ pub trait ReturnMap: Send + Sync {
     ///
     /// # Errors
     /// As [`Self::evaluate`].
-    fn plan(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Option<Plan>), RequestError>;
+    fn plan(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Option<Plan>), RequestError> {
+        Ok((self.evaluate(request)?, None))
+    }
 
     /// Replays a plan at each point, one after the other; `images` says where it held.
     ///
     /// # Errors
     /// When the plan is another model's, or the points do not fit the model.
-    fn replay(&self, plan: &Plan, points: Points<'_>, images: &mut Images) -> Result<(), RequestError>;
+    fn replay(&self, plan: &Plan, points: Points<'_>, images: &mut Images) -> Result<(), RequestError> {
+        let _ = plan;
+        images.make_room(points.count(self.info())?, self.info().coordinates.len());
+        Ok(())
+    }
 
     /// Runs a piece of a plan from `start`: section coordinates for the first piece, a full state for the others. `None` where
     /// the plan does not hold.
     ///
     /// # Errors
     /// When the plan is another model's, or a length does not fit.
-    fn piece(&self, piece: &Piece, start: &[f64], parameters: &[f64]) -> Result<Option<PieceEnd>, RequestError>;
+    fn piece(&self, piece: &Piece, start: &[f64], parameters: &[f64]) -> Result<Option<PieceEnd>, RequestError> {
+        let _ = (piece, start, parameters);
+        Ok(None)
+    }
 
     /// Second derivatives of the map at a point, along its section coordinates and the chosen parameters (by index), on a plan
     /// that was made at this point. `None` where the plan does not hold.
@@ -291,5 +302,8 @@ pub trait ReturnMap: Send + Sync {
         plan: &Plan,
         point: Points<'_>,
         chosen: &[usize],
-    ) -> Result<Option<SecondOrder>, RequestError>;
+    ) -> Result<Option<SecondOrder>, RequestError> {
+        let _ = (plan, point, chosen);
+        Ok(None)
+    }
 }

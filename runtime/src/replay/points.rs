@@ -1,7 +1,7 @@
 //! What replays are asked and what they answer, many maps at a time and without allocation once room is there.
 
 use crate::model::ModelInfo;
-use crate::return_map::RequestError;
+use crate::return_map::{MapResult, RequestError};
 use nalgebra::{DMatrix, DVector};
 
 /// Starts of maps, row by row.
@@ -107,6 +107,36 @@ impl Images {
             values.clear();
             values.resize(length, f64::NAN);
         }
+    }
+
+    /// Puts the result of a full run in its place; false where a number is not finite.
+    pub(crate) fn put(&mut self, point: usize, map: &MapResult) -> bool {
+        let d = map.coordinates.len();
+        let finite = map.coordinates.iter().chain(map.jacobian.iter()).all(|v| v.is_finite());
+        let Some(held) = self.held.get_mut(point).filter(|_| finite) else {
+            return false;
+        };
+        *held = true;
+        for (values, length, from) in [
+            (&mut self.coordinates, d, map.coordinates.as_slice()),
+            (&mut self.jacobians, d * d, map.jacobian.as_slice()),
+            (&mut self.durations, 1, &[map.duration][..]),
+            (&mut self.duration_gradients, d, map.duration_gradient.as_slice()),
+        ] {
+            for (slot, value) in values.iter_mut().skip(point * length).zip(from) {
+                *slot = *value;
+            }
+        }
+        true
+    }
+
+    /// Appends more maps.
+    pub(crate) fn append(&mut self, mut more: Self) {
+        self.held.append(&mut more.held);
+        self.coordinates.append(&mut more.coordinates);
+        self.jacobians.append(&mut more.jacobians);
+        self.durations.append(&mut more.durations);
+        self.duration_gradients.append(&mut more.duration_gradients);
     }
 
     /// The Jacobian of a map, d x d.
