@@ -119,20 +119,22 @@ impl Factors {
         for (slot, &row) in x.as_flattened_mut().iter_mut().zip(&self.order[..self.n]) {
             *slot = b[row];
         }
-        let (columns, _) = self.columns.as_chunks::<H>();
-        let (lowers, _) = self.lower.as_chunks::<H>();
-        // What lies beyond row n stays zero.
-        for (j, lower) in lowers[..self.n].iter().enumerate() {
-            let factor = x.as_flattened()[j];
-            x = less(x, factor, lower);
+        let (columns, lowers) = (self.columns.as_chunks::<H>().0, self.lower.as_chunks::<H>().0);
+        let (columns, lowers) = (&columns[..H * GROUP], &lowers[..H * GROUP]);
+        // Columns beyond `n` are zeros. Nothing is written into single entries of `x`: it stays in registers.
+        for h in 0..H {
+            for i in 0..GROUP {
+                x = less(x, x[h][i], &lowers[h * GROUP + i]);
+            }
         }
-        let inverses = &self.inverses.as_flattened()[..self.n];
-        for ((j, column), inverse) in columns[..self.n].iter().enumerate().zip(inverses).rev() {
-            let value = x.as_flattened()[j] * inverse;
-            x = less(x, value, column);
-            x.as_flattened_mut()[j] = value;
+        for h in (0..H).rev() {
+            let mut values = [0.0; GROUP];
+            for i in (0..GROUP).rev() {
+                values[i] = x[h][i] * self.inverses[h][i];
+                x = less(x, values[i], &columns[h * GROUP + i]);
+            }
+            self.solution[h] = values;
         }
-        self.solution.copy_from_slice(&x);
     }
 }
 
