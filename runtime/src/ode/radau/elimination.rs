@@ -3,12 +3,12 @@
 //! The unknowns are the increments z_a = h A k_a of the state at the stages. Then an equation that has no rate of a state has
 //! diagonal blocks B_ab = F_x, and one that has it has B_ab = F_x + F_k A^-1/h. A state t whose equation is x_t' = f
 //! with an f that does not depend on x_t has B_tt = A^-1/h: it follows from the others by z_t = h A (r_t - sum_b B_tb z_b), which
-//! turns the other blocks into B_ab - B_at h A B_tb. What remains is factorised with pivoting. Blocks that are zero cost nothing,
+//! turns the other blocks into B_ab - B_at h A B_tb. What remains is inverted with pivoting. Blocks that are zero cost nothing,
 //! diagonal ones little.
 
 use super::coefficients::Tableau;
 use super::fused::{Block, applied, entries, less_applied, less_entries, scaled};
-use super::lu::Factors;
+use super::inverse::Inverse;
 use crate::model::Linearised;
 
 /// A number for each stage.
@@ -36,7 +36,7 @@ pub(super) struct System<const N: usize, const S: usize> {
     /// What the remaining equations were multiplied with.
     scales: Vec<Staged<S>>,
     /// The remaining equations.
-    rest: Factors,
+    rest: Inverse,
 }
 
 /// Sets of states, one bit each.
@@ -93,7 +93,7 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
             integration: [[0.0; S]; S],
             differentiation: [[0.0; S]; S],
             scales: vec![[1.0; S]; N],
-            rest: Factors::default(),
+            rest: Inverse::default(),
         }
     }
 }
@@ -116,7 +116,7 @@ impl<const N: usize, const S: usize> System<N, S> {
         }
         self.substitute(candidates);
         self.gather();
-        self.rest.factorise()
+        self.rest.invert()
     }
 
     #[inline]
@@ -215,7 +215,7 @@ impl<const N: usize, const S: usize> System<N, S> {
         }
     }
 
-    /// Hands the remaining equations to [`Factors`], each divided by its largest entry.
+    /// Hands the remaining equations to [`Inverse`], each divided by its largest entry.
     fn gather(&mut self) {
         let rest = &self.order[self.substituted..];
         self.rest.resize(rest.len() * S);

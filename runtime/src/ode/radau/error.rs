@@ -48,7 +48,7 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
                 column[a] = self.filter_scales[a] * (at.dk[b][a] + h_gamma * at.dx[b][a]);
             }
         }
-        self.filter.factorise()
+        self.filter.invert()
     }
 
     /// (F_k + h gamma F_x)^-1 F_k d, with the h gamma of [`Self::factorise_filter`].

@@ -7,14 +7,14 @@
 //! those of the last stage.
 //!
 //! `coefficients` has the methods, `stages` solves for the rates of the state, `variations` differentiates the solution,
-//! `polynomial` is the collocation polynomial (dense output, prediction), `error` the error estimate, `elimination`, `lu` and
+//! `polynomial` is the collocation polynomial (dense output, prediction), `error` the error estimate, `elimination`, `inverse` and
 //! `fused` the linear algebra.
 
 mod coefficients;
 mod elimination;
 mod error;
 mod fused;
-mod lu;
+mod inverse;
 mod polynomial;
 mod stages;
 mod variations;

@@ -6,7 +6,7 @@
 
 use super::coefficients::Tableau;
 use super::elimination::{Solution, System};
-use super::lu::Factors;
+use super::inverse::Inverse;
 use super::polynomial::weighted;
 use crate::model::Linearised;
 
@@ -40,7 +40,7 @@ pub struct Workspace<const N: usize, const S: usize> {
     /// Derivatives at the last stage, where the matrix of Newton's method was made.
     pub(super) end: Linearised<f64, N>,
     /// The matrix of the error estimate.
-    pub(super) filter: Factors,
+    pub(super) filter: Inverse,
     /// What its rows were multiplied with.
     pub(super) filter_scales: [f64; N],
 }
@@ -53,7 +53,7 @@ impl<const N: usize, const S: usize> Default for Workspace<N, S> {
             stages: System::default(),
             made: None,
             end: zero,
-            filter: Factors::default(),
+            filter: Inverse::default(),
             filter_scales: [1.0; N],
         }
     }

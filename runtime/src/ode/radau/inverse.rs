@@ -1,8 +1,8 @@
-//! Dense factorisation with partial pivoting of a square matrix.
+//! Inverse of a square matrix, by elimination with partial pivoting (Gauss and Jordan).
 //!
-//! Columns lie in memory one after the other in groups of four rows, so that whole groups are worked on at once, and the number of
-//! groups is known when that is compiled. Entries on the wrong side of the diagonal are zeros: of L in `lower`, whose
-//! unit diagonal is not stored, of U, whose diagonal is stored inverted, in `columns`.
+//! A matrix serves for several right-hand sides, one after the other. With the inverse, no entry of a solution has to wait for
+//! another one: that is worth the additional work, as matrices are small. Columns lie in memory one after the other in groups
+//! of four rows, so that whole groups are worked on at once, and the number of groups is known when that is compiled.
 
 use crate::scalar::Scalar;
 
@@ -10,20 +10,16 @@ use crate::scalar::Scalar;
 type Group = [f64; GROUP];
 const GROUP: usize = 4;
 
-/// A factorised matrix; also its room.
+/// An inverted matrix; also its room.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Factors {
+pub(super) struct Inverse {
     /// Rows and columns.
     n: usize,
     /// Groups in a column.
     height: usize,
-    /// The matrix, then U above its diagonal.
+    /// The matrix, then the inverse of the matrix with its rows in `order`.
     columns: Vec<Group>,
-    /// L below its diagonal.
-    lower: Vec<Group>,
-    /// Inverse diagonal of U.
-    inverses: Vec<Group>,
-    /// Which rows the factors' rows were.
+    /// Which rows the rows were.
     order: Vec<usize>,
     /// The solution.
     solution: Vec<Group>,
@@ -45,7 +41,7 @@ macro_rules! with_height {
 /// The heights of [`with_height`].
 const HEIGHTS: [usize; 12] = [1, 2, 3, 4, 5, 6, 8, 12, 16, 24, 40, 80];
 
-impl Factors {
+impl Inverse {
     /// Makes room for `n` rows and columns, at most 320.
     pub(super) fn resize(&mut self, n: usize) {
         if self.n == n && self.height > 0 {
@@ -54,13 +50,10 @@ impl Factors {
         self.n = n;
         self.height = HEIGHTS.into_iter().find(|height| n <= GROUP * height).unwrap_or(0);
         let zero = [0.0; GROUP];
-        for room in [&mut self.columns, &mut self.lower] {
-            room.clear();
-            room.resize(GROUP * self.height * self.height, zero);
-        }
+        self.columns.clear();
+        self.columns.resize(n * self.height, zero);
         self.solution.resize(self.height, zero);
-        self.inverses.resize(self.height, zero);
-        self.order = (0..GROUP * self.height).collect();
+        self.order = (0..n).collect();
     }
 
     /// The entries of a column, to be filled in. The largest entries of rows should be of similar size.
@@ -70,14 +63,14 @@ impl Factors {
         self.columns[first..first + self.height].as_flattened_mut()
     }
 
-    /// Replaces the entries by their factors; false when the matrix is singular or not finite.
-    pub(super) fn factorise(&mut self) -> bool {
+    /// Replaces the entries by those of the inverse; false when the matrix is singular or not finite.
+    pub(super) fn invert(&mut self) -> bool {
         with_height!(self.height, H => self.eliminate::<H>(), false)
     }
 
-    /// The solution for the right-hand side `b`; after a successful [`Self::factorise`].
+    /// The solution for the right-hand side `b`; after a successful [`Self::invert`].
     pub(super) fn solve(&mut self, b: &[f64]) -> &[f64] {
-        with_height!(self.height, H => self.substitute::<H>(b), ());
+        with_height!(self.height, H => self.multiply::<H>(b), ());
         &self.solution.as_flattened()[..self.n]
     }
 
@@ -86,9 +79,7 @@ impl Factors {
             *slot = i;
         }
         let (columns, _) = self.columns.as_chunks_mut::<H>();
-        let (lowers, _) = self.lower.as_chunks_mut::<H>();
-        let inverses = self.inverses.as_flattened_mut();
-        for j in 0..self.n {
+        for j in 0..columns.len() {
             let (pivot, value) = largest(&columns[j].as_flattened()[j..self.n]);
             // A column of NaN finds no pivot; one NaN among numbers spreads to the next columns.
             if value == 0.0 || !value.is_finite() {
@@ -96,44 +87,43 @@ impl Factors {
             }
             if pivot > 0 {
                 self.order.swap(j, j + pivot);
-                for column in lowers[..j].iter_mut().chain(&mut columns[j..self.n]) {
+                for column in &mut *columns {
                     column.as_flattened_mut().swap(j, j + pivot);
                 }
             }
-            inverses[j] = 1.0 / value;
-            let Some((finished, rest)) = columns[j..self.n].split_first_mut() else {
+            let (before, rest) = columns.split_at_mut(j);
+            let Some((own, after)) = rest.split_first_mut() else {
                 return false;
             };
-            let lower = split(finished, j, inverses[j]);
-            for column in rest {
-                let factor = column.as_flattened()[j];
-                *column = less(*column, factor, &lower);
+            let (inverse, mut factors) = (1.0 / value, *own);
+            factors.as_flattened_mut()[j] = 0.0;
+            for column in before {
+                pass(column, j, inverse, &factors);
             }
-            lowers[j] = lower;
+            for column in after {
+                pass(column, j, inverse, &factors);
+            }
+            *own = plus([[0.0; GROUP]; H], -inverse, &factors);
+            own.as_flattened_mut()[j] = inverse;
         }
         true
     }
 
-    fn substitute<const H: usize>(&mut self, b: &[f64]) {
+    fn multiply<const H: usize>(&mut self, b: &[f64]) {
         let mut x = [[0.0; GROUP]; H];
-        for (slot, &row) in x.as_flattened_mut().iter_mut().zip(&self.order[..self.n]) {
-            *slot = b[row];
-        }
-        let (columns, _) = self.columns.as_chunks::<H>();
-        let (lowers, _) = self.lower.as_chunks::<H>();
-        // What lies beyond row n stays zero.
-        for (j, lower) in lowers[..self.n].iter().enumerate() {
-            let factor = x.as_flattened()[j];
-            x = less(x, factor, lower);
-        }
-        let inverses = &self.inverses.as_flattened()[..self.n];
-        for ((j, column), inverse) in columns[..self.n].iter().enumerate().zip(inverses).rev() {
-            let value = x.as_flattened()[j] * inverse;
-            x = less(x, value, column);
-            x.as_flattened_mut()[j] = value;
+        for (column, &row) in self.columns.as_chunks::<H>().0.iter().zip(&self.order) {
+            x = plus(x, b[row], column);
         }
         self.solution.copy_from_slice(&x);
     }
+}
+
+/// Divides row `j` of a column by the pivot and takes it, times `factors`, from the other rows.
+#[inline(always)]
+fn pass<const H: usize>(column: &mut [Group; H], j: usize, inverse: f64, factors: &[Group; H]) {
+    let value = column.as_flattened()[j] * inverse;
+    *column = plus(*column, -value, factors);
+    column.as_flattened_mut()[j] = value;
 }
 
 /// Place and value of the entry that is largest in magnitude; 0 where there is none.
@@ -148,23 +138,12 @@ fn largest(entries: &[f64]) -> (usize, f64) {
     (place, value)
 }
 
-/// The column of L that `column` makes, with `inverse` the inverse of entry `j` on the diagonal; leaves the column of U.
+/// `target + factor * column`.
 #[inline(always)]
-fn split<const H: usize>(column: &mut [Group; H], j: usize, inverse: f64) -> [Group; H] {
-    let mut lower = [[0.0; GROUP]; H];
-    for (i, (lower, entry)) in lower.as_flattened_mut().iter_mut().zip(column.as_flattened_mut()).enumerate() {
-        *lower = if i > j { *entry * inverse } else { 0.0 };
-        *entry = if i < j { *entry } else { 0.0 };
-    }
-    lower
-}
-
-/// `target - factor * column`.
-#[inline(always)]
-fn less<const H: usize>(mut target: [Group; H], factor: f64, column: &[Group; H]) -> [Group; H] {
+fn plus<const H: usize>(mut target: [Group; H], factor: f64, column: &[Group; H]) -> [Group; H] {
     for h in 0..H {
         for i in 0..GROUP {
-            target[h][i] = Scalar::mul_add(-factor, column[h][i], target[h][i]);
+            target[h][i] = Scalar::mul_add(factor, column[h][i], target[h][i]);
         }
     }
     target
@@ -172,23 +151,23 @@ fn less<const H: usize>(mut target: [Group; H], factor: f64, column: &[Group; H]
 
 #[cfg(test)]
 mod tests {
-    use super::Factors;
+    use super::Inverse;
     use nalgebra::{DMatrix, DVector};
 
-    fn solves(factors: &mut Factors, n: usize) {
+    fn solves(inverse: &mut Inverse, n: usize) {
         let entry = |i: usize, j: usize| {
             if (i + j) % 3 == 1 { 0.0 } else { ((3 * i + 5 * j + i * j + 1) as f64).sin() }
         };
         let b = DVector::from_fn(n, |i, _| (i as f64).cos());
-        factors.resize(n);
+        inverse.resize(n);
         for j in 0..n {
-            let column = factors.column(j);
+            let column = inverse.column(j);
             for i in 0..n {
                 column[i] = entry(i, j);
             }
         }
-        assert!(factors.factorise());
-        let x = factors.solve(b.as_slice());
+        assert!(inverse.invert());
+        let x = inverse.solve(b.as_slice());
         let exact = DMatrix::from_fn(n, n, entry).lu().solve(&b);
         assert_eq!(x.len(), n);
         for (a, b) in x.iter().zip(exact.iter().flatten()) {
@@ -199,23 +178,23 @@ mod tests {
     #[test]
     fn solves_what_nalgebra_solves() {
         // In one room, which grows and shrinks.
-        let mut factors = Factors::default();
+        let mut inverse = Inverse::default();
         for n in [1, 4, 6, 10, 27, 18, 3] {
-            solves(&mut factors, n);
+            solves(&mut inverse, n);
         }
-        factors.resize(0);
-        assert!(factors.factorise() && factors.solve(&[]).is_empty());
+        inverse.resize(0);
+        assert!(inverse.invert() && inverse.solve(&[]).is_empty());
     }
 
     #[test]
     fn refuses_singular_matrices() {
         for entry in [0.0, 1.0, f64::NAN, f64::INFINITY] {
-            let mut factors = Factors::default();
-            factors.resize(6);
+            let mut inverse = Inverse::default();
+            inverse.resize(6);
             for j in 0..6 {
-                factors.column(j)[..6].fill(entry);
+                inverse.column(j)[..6].fill(entry);
             }
-            assert!(!factors.factorise(), "{entry}");
+            assert!(!inverse.invert(), "{entry}");
         }
     }
 }
