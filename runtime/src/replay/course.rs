@@ -98,7 +98,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     pub(crate) fn embed(&mut self, coordinates: &Moving<S, N, C>) {
         let z = coordinates.x.get(..M::INFO.coordinates.len()).unwrap_or(&[]);
         self.at.x = M::embed(z, self.segment.p);
-        if C == 0 {
+        if const { C == 0 } {
             return;
         }
         let mut by_z = [[S::constant(0.0); N]; N];
@@ -123,7 +123,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         self.segment.set_memory(&leg.memory);
         let zero = S::constant(0.0);
         let x = self.at.x;
-        if C > 0 {
+        if const { C > 0 } {
             let reset = M::reset_jacobian(i, &x, &self.segment.env(zero));
             for c in 0..C {
                 self.at.dx[c] = through(&reset, &self.at.dx[c], &[zero; P], self.segment.dstart[c], zero);
@@ -149,7 +149,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         for (step, size) in sizes.iter().enumerate() {
             let h = self.scale.times(*size);
             let (end, rates) = self.step(h);
-            if S::ORDER == 0 {
+            if const { S::ORDER == 0 } {
                 let tolerance =
                     Tolerance { relative: self.plan.accuracy.relative, absolute: self.plan.accuracy.absolute };
                 self.valid = S::and(self.valid, within(h, &self.at, &end, &self.stages, tolerance));
@@ -179,7 +179,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     pub(crate) fn project(&self) -> Moving<S, N, C> {
         let mut state = if matches!(self.section, Section::Before(_)) { self.on_section } else { self.at };
         if M::INFO.symmetric {
-            if C > 0 {
+            if const { C > 0 } {
                 let by = M::symmetry_jacobian(&state.x, self.segment.p).dx;
                 state.dx = state.dx.map(|column| {
                     core::array::from_fn(|i| (0..N).fold(S::constant(0.0), |sum, j| by[j][i].mul_add(column[j], sum)))

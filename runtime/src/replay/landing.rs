@@ -17,7 +17,7 @@ use super::number::Number;
 use super::plan::{End, Leg};
 use crate::event::Surface;
 use crate::model::{Gradient, Model, Section};
-use crate::sensitivity::{Clock, Crossing, dot};
+use crate::sensitivity::{Clock, Crossing};
 
 /// Steps to the event before the replay gives up.
 const ATTEMPTS: usize = 8;
@@ -35,15 +35,13 @@ const GRAZING: f64 = 1e-4;
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// The place of an event.
-pub(crate) struct Landed<S, const N: usize, const P: usize, const C: usize> {
+pub(crate) struct Landed<S, const N: usize, const C: usize> {
     /// State and variations at the event's own time (not at the varied one).
     pub(crate) at: Moving<S, N, C>,
     /// The flow just before.
     pub(crate) before: [S; N],
     /// The clock.
     pub(crate) tau: S,
-    /// The surface that decides.
-    pub(crate) guard: Gradient<S, N, P>,
 }
 
 impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize>
@@ -61,8 +59,10 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         }
         let (mut length, mut done) = (S::constant(leg.length()), S::mask(false));
         for _ in 0..ATTEMPTS {
-            let g = self.gradient(surface, &self.at.x, self.tau + length);
-            let excess = g.value / (g.dtau + g.dt);
+            let (x, tau) = (&self.at.x, self.tau + length);
+            let still = [S::constant(0.0); N];
+            let excess =
+                self.segment.value::<M, N, Q>(surface, x, tau) / self.segment.slope::<M, N, Q>(surface, x, tau, &still);
             // What one lane needs must not show in another.
             length = S::select(done, length, length - excess);
             let small = excess.abs().less_equal(length.abs().times(f64::EPSILON));
@@ -96,7 +96,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     }
 
     /// The last step, to exactly the event.
-    fn locate(&mut self, leg: &Leg, surface: Surface) -> Landed<S, N, P, C> {
+    fn locate(&mut self, leg: &Leg, surface: Surface) -> Landed<S, N, C> {
         let planned = self.scale.times(leg.sizes.last().copied().unwrap_or(0.0));
         let short = if S::ORDER == 0 { SHORT } else { SHORT_WITH_DERIVATIVES };
         let mut h = planned;
@@ -108,7 +108,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             let near = delta.0.abs().less_equal(h.abs().times(short).plus_times(8.0 * f64::EPSILON, tau));
             if attempt == ATTEMPTS || S::all(S::or(near, S::not(self.valid))) {
                 self.valid = S::and(self.valid, near);
-                return self.reach(surface, tau, (end, rates), delta);
+                return reach(tau, (end, rates), delta);
             }
             attempt += 1;
             let better = h + delta.0;
@@ -120,50 +120,35 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
 
     /// The time that is left to the event from (`tau`, `x`), by the Taylor polynomial, and the rate of the flow there.
     fn rest(&self, surface: Surface, tau: S, x: &[S; N], f: &[S; N]) -> (S, [S; N]) {
-        let bend = self.segment.along_time::<M, N, Q>(tau, x, S::constant(1.0), f);
+        let bend = self.segment.bend::<M, N, Q>(tau, x, f);
         let mut delta = S::constant(0.0);
         for _ in 0..CORRECTIONS {
             let there = taylor(x, f, &bend, delta);
-            let g = self.gradient(surface, &there, tau + delta);
-            let rate = core::array::from_fn(|i| f[i] + bend[i] * delta);
-            delta = delta - g.value / (dot(&g.dx, &rate) + g.dtau + g.dt);
+            let rate = core::array::from_fn(|i| bend[i].mul_add(delta, f[i]));
+            let value = self.segment.value::<M, N, Q>(surface, &there, tau + delta);
+            delta = delta - value / self.segment.slope::<M, N, Q>(surface, &there, tau + delta, &rate);
         }
         (delta, bend)
     }
 
-    /// State, variations and flow after `delta` more.
-    fn reach(
-        &self,
-        surface: Surface,
-        tau: S,
-        (end, rates): (Moving<S, N, C>, Moving<S, N, C>),
-        (delta, bend): (S, [S; N]),
-    ) -> Landed<S, N, P, C> {
-        let mut at = Moving { x: taylor(&end.x, &rates.x, &bend, delta), dx: end.dx };
-        for c in 0..C {
-            for i in 0..N {
-                at.dx[c][i] = rates.dx[c][i].mul_add(delta, at.dx[c][i]);
-            }
-        }
-        let before = core::array::from_fn(|i| bend[i].mul_add(delta, rates.x[i]));
-        let tau = tau + delta;
-        Landed { at, before, tau, guard: self.gradient(surface, &at.x, tau) }
-    }
-
     /// Declines lanes in which the event is not the plan's: grazing, not enabled, other surfaces elsewhere.
-    fn check_end(&mut self, leg: &Leg, landed: &Landed<S, N, P, C>) {
-        if S::ORDER > 0 {
+    fn check_end(&mut self, leg: &Leg, landed: &Landed<S, N, C>) {
+        // What is not compiled for numbers with derivatives: their values were checked in plain ones before.
+        if const { S::ORDER > 0 } {
             return;
         }
-        let rate = dot(&landed.guard.dx, &landed.before) + landed.guard.dtau + landed.guard.dt;
+        let Some(&first) = leg.end.surfaces.first() else {
+            return;
+        };
+        let rate = self.segment.slope::<M, N, Q>(first, &landed.at.x, landed.tau, &landed.before);
         let mut ok = S::constant(GRAZING * leg.end.fastest).less(rate.abs());
-        if let Some(&Surface::Transition(i)) = leg.end.surfaces.first() {
+        if let Surface::Transition(i) = first {
             let margin = M::when(i, &landed.at.x, &self.segment.env(landed.tau));
             ok = S::and(ok, S::constant(0.0).less_equal(margin));
         }
         for sides in &leg.watched {
             let surfaces = &leg.end.surfaces;
-            if surfaces.first() == Some(&sides.surface) {
+            if sides.surface == first {
                 continue;
             }
             let g = self.gradient(sides.surface, &landed.at.x, landed.tau);
@@ -179,7 +164,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     }
 
     /// The size of the terms that a function is made of.
-    fn size(&self, g: &Gradient<S, N, P>, landed: &Landed<S, N, P, C>) -> S {
+    fn size(&self, g: &Gradient<S, N, P>, landed: &Landed<S, N, C>) -> S {
         let mut size = (g.dtau * landed.tau).abs() + (g.dt * (self.segment.start + landed.tau)).abs();
         for i in 0..N {
             size = size + (g.dx[i] * landed.at.x[i]).abs();
@@ -190,10 +175,11 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         size
     }
 
-    fn pass_transition(&mut self, i: usize, landed: &Landed<S, N, P, C>) {
-        let (zero, Landed { at, before, tau, guard }) = (S::constant(0.0), landed);
+    fn pass_transition(&mut self, i: usize, landed: &Landed<S, N, C>) {
+        let (zero, Landed { at, before, tau }) = (S::constant(0.0), landed);
         let (still, mut dtau) = ([zero; P], [zero; C]);
-        if C > 0 {
+        if const { C > 0 } {
+            let guard = &self.gradient(Surface::Transition(i), &at.x, *tau);
             let reset = M::reset_jacobian(i, &at.x, &self.segment.env(*tau));
             let crossing = Crossing { guard, reset: Some(&reset), before: *before, clock: Clock::Restarts };
             for c in 0..C {
@@ -219,14 +205,14 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
 
     /// Switches at one instant are passed one after the other, in the order of the plan; their selectors become those of the
     /// leg that follows.
-    fn pass_switches(&mut self, end: &End, next: Option<&Leg>, landed: &Landed<S, N, P, C>) {
+    fn pass_switches(&mut self, end: &End, next: Option<&Leg>, landed: &Landed<S, N, C>) {
         let Some(next) = next else {
             self.valid = S::mask(false);
             return;
         };
         let (tau, mut before) = (landed.tau, landed.before);
         (self.at, self.tau) = (landed.at, tau);
-        if C == 0 {
+        if const { C == 0 } {
             return;
         }
         let zero = S::constant(0.0);
@@ -246,6 +232,22 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             before = after;
         }
     }
+}
+
+/// State, variations and flow after `delta` more.
+fn reach<S: Number, const N: usize, const C: usize>(
+    tau: S,
+    (end, rates): (Moving<S, N, C>, Moving<S, N, C>),
+    (delta, bend): (S, [S; N]),
+) -> Landed<S, N, C> {
+    let mut at = Moving { x: taylor(&end.x, &rates.x, &bend, delta), dx: end.dx };
+    for c in 0..C {
+        for i in 0..N {
+            at.dx[c][i] = rates.dx[c][i].mul_add(delta, at.dx[c][i]);
+        }
+    }
+    let before = core::array::from_fn(|i| bend[i].mul_add(delta, rates.x[i]));
+    Landed { at, before, tau: tau + delta }
 }
 
 /// x + f delta + bend delta^2 / 2.

@@ -5,7 +5,7 @@ use super::number::Number;
 use crate::event::Surface;
 use crate::model::{Env, Gradient, Model};
 use crate::scalar::{LaneMask, Lanes, Scalar};
-use crate::sensitivity::Dual;
+use crate::sensitivity::{Dual, dot};
 use smallvec::SmallVec;
 
 /// So many numbers of a kind need no allocation.
@@ -99,6 +99,69 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
         }
     }
 
+    /// A surface's function.
+    pub(crate) fn value<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        surface: Surface,
+        x: &[S; N],
+        tau: S,
+    ) -> S {
+        match surface {
+            Surface::Transition(i) => M::guard(i, x, &self.env(tau)),
+            Surface::Switch(i) => M::switch(i, x, &self.env(tau)),
+        }
+    }
+
+    /// The rate of a surface's function where the state has the rate `f`; numbers that carry derivatives get its value alone.
+    pub(crate) fn slope<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        surface: Surface,
+        x: &[S; N],
+        tau: S,
+        f: &[S; N],
+    ) -> S {
+        if const { S::ORDER == 0 } {
+            let g = self.gradient::<M, N, Q>(surface, x, tau);
+            return dot(&g.dx, f) + g.dtau + g.dt;
+        }
+        S::from_values(|lane| {
+            let (x, f) = (x.map(|x| x.lane(lane)), f.map(|f| f.lane(lane)));
+            self.plain(lane, |segment| segment.slope::<M, N, Q>(surface, &x, tau.lane(lane), &f))
+        })
+    }
+
+    /// The second derivative of the state with time, where its first is `f`; numbers that carry derivatives get its value alone.
+    pub(crate) fn bend<M: Model<N, P, Q>, const N: usize, const Q: usize>(
+        &self,
+        tau: S,
+        x: &[S; N],
+        f: &[S; N],
+    ) -> [S; N] {
+        if const { S::ORDER == 0 } {
+            return self.along_time::<M, N, Q>(tau, x, S::constant(1.0), f);
+        }
+        let in_lane = |lane: usize| {
+            let (x, f) = (x.map(|x| x.lane(lane)), f.map(|f| f.lane(lane)));
+            self.plain(lane, |segment| segment.along_time::<M, N, Q>(tau.lane(lane), &x, 1.0, &f))
+        };
+        core::array::from_fn(|i| S::from_values(|lane| in_lane(lane)[i]))
+    }
+
+    /// The values of everything in one lane, in plain numbers.
+    fn plain<R>(&self, lane: usize, use_it: impl FnOnce(&Segment<'_, f64, P, 0>) -> R) -> R {
+        let p = self.p.map(|p| p.lane(lane));
+        use_it(&Segment {
+            mode: self.mode,
+            p: &p,
+            memory: self.memory.iter().map(|m| m.lane(lane)).collect(),
+            branch: self.branch.iter().map(|b| S::holds(*b, lane)).collect(),
+            wide_memory: SmallVec::new(),
+            wide_branch: SmallVec::new(),
+            start: self.start.lane(lane),
+            dstart: [],
+        })
+    }
+
     /// Rates of state and variations.
     pub(crate) fn rates<M: Model<N, P, Q>, const N: usize, const Q: usize>(
         &self,
@@ -117,7 +180,7 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
         y: &Moving<S, N, C>,
     ) -> Moving<S, N, C> {
         let (x, mut dx) = M::variational_at(self.mode, &y.x, &y.dx, clock, &self.env(tau));
-        if M::INFO.uses_time && C > 0 {
+        if const { M::INFO.uses_time && C > 0 } {
             let by_t = self.along_time::<M, N, Q>(tau, &y.x, S::constant(0.0), &[S::constant(0.0); N]);
             for c in 0..C {
                 for i in 0..N {

@@ -20,7 +20,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     /// Reads the watched surfaces at the start of a leg.
     pub(crate) fn read_start(&mut self, leg: &Leg) {
         self.readings.clear();
-        if S::ORDER > 0 {
+        if const { S::ORDER > 0 } {
             return;
         }
         for sides in &leg.watched {
@@ -31,7 +31,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
 
     /// Declines lanes in which a watched surface does something else in step number `step`, which has just been taken.
     pub(crate) fn watch(&mut self, leg: &Leg, step: usize, h: S) {
-        if S::ORDER > 0 {
+        if const { S::ORDER > 0 } {
             return;
         }
         for (i, sides) in leg.watched.iter().enumerate() {
