@@ -31,6 +31,9 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["gait", "self_exciting", "--method", "explicit"], &["`self_exciting` has a mass matrix", "`radau5`"]),
     (&["optimize", "self_exciting", "--method", "explicit"], &["`self_exciting` has a mass matrix", "`radau5`"]),
     (&["gait", "prescribed_length", "--period", "0"], &["--period"]),
+    (&["gait", "prescribed_length", "--segments", "0"], &["--segments 0", "from 1 to 100"]),
+    (&["gait", "self_exciting", "--segments", "3"], &["`self_exciting` cannot be cut into segments", "use 1 segment"]),
+    (&["gait", "prescribed_length", "--segments", "3", "--period", "2"], &["cannot be cut into segments"]),
     (&["gait", "prescribed_length", "--specs", "/nonexistent"], &["/nonexistent"]),
     (
         &["optimize", "prescribed_length", "--problem", "fastst"],
@@ -151,6 +154,19 @@ fn a_price_is_in_the_unit_of_its_constraint() {
     approx::assert_relative_eq!(1000.0 * in_newton, in_kilonewton, max_relative = 1e-3);
     // Without a unit behind the bound it is that of the measure.
     assert_eq!(price("peak_force <= 85/25.506*m*g").1, "N");
+}
+
+#[test]
+fn multiple_shooting_finds_the_same_gait() {
+    let radius = |segments: &str| {
+        let (code, gait) = json(&["gait", "slip_runner", "--segments", segments]);
+        assert_eq!(code, 0, "{gait:#}");
+        gait["spectral_radius"].as_f64().unwrap()
+    };
+    let single = radius("1");
+    for segments in ["2", "5"] {
+        assert!((radius(segments) - single).abs() < 1e-9 * single, "{segments}: {} {single}", radius(segments));
+    }
 }
 
 #[test]

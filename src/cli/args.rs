@@ -137,6 +137,10 @@ pub(crate) struct GaitArgs {
     /// Number of maps that make one period
     #[arg(long, default_value_t = 1, value_name = "K")]
     pub(crate) period: usize,
+    /// Number of segments that a map is cut into: more than 1 is multiple shooting, which finds unstable gaits from further
+    /// away (models without a mass matrix)
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub(crate) segments: usize,
 }
 
 #[derive(Debug, Args)]

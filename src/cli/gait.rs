@@ -27,9 +27,15 @@ const GAIT_KEYS: [&str; 11] = [
 /// Longer periods are not gaits that anybody could tell from chaos.
 const LONGEST_PERIOD: usize = 1000;
 
+/// More segments than this are shorter than the steps of any integration.
+const MOST_SEGMENTS: usize = 100;
+
 pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     if args.period == 0 || args.period > LONGEST_PERIOD {
         return Err(InputError(format!("--period {}: give a number from 1 to {LONGEST_PERIOD}", args.period)));
+    }
+    if args.segments == 0 || args.segments > MOST_SEGMENTS {
+        return Err(InputError(format!("--segments {}: give a number from 1 to {MOST_SEGMENTS}", args.segments)));
     }
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
@@ -39,7 +45,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let request = GaitRequest::new(&parameters, &memory);
     // A map that is integrated more coarsely is no smoother than its tolerance: nor can its fixed point be.
     let tolerance = request.tolerance.max(10.0 * accuracy.relative);
-    let request = GaitRequest { period: args.period, accuracy, tolerance, ..request };
+    let request = GaitRequest { period: args.period, segments: args.segments, accuracy, tolerance, ..request };
     let outcome = find_gait(loaded.compiled, &request, &guess)?;
     let warnings = inputs::outside_range(&loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };
