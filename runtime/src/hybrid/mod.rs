@@ -193,10 +193,13 @@ fn radau5<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     section: Section,
     columns: Columns<'_>,
 ) -> Result<(MapResult, Option<Plan>), Failure> {
-    if columns.bare && const { !M::INFO.explicit } {
-        widths!(Radau<5>, Bare, 0, (request, section, columns); 4)
+    if !columns.bare || const { M::INFO.explicit } {
+        return widths!(Radau<5>, Whole, Q, (request, section, columns); 8);
+    }
+    if const { M::INFO.coordinates.len() <= NARROW } {
+        widths!(Radau<5>, Bare, 0, (request, section, columns); 2)
     } else {
-        widths!(Radau<5>, Whole, Q, (request, section, columns); 8)
+        widths!(Radau<5>, Bare, 0, (request, section, columns); 4)
     }
 }
 

@@ -147,6 +147,10 @@ where
     ) -> f64 {
         step.h = h;
         let equation = equation::<M, P, Q>(held.frame);
+        if R::MEASURED {
+            // Functionals may take rates, which are to be solved for with the step's own matrix.
+            work.forget();
+        }
         if !Self::solve_state::<M, N, P, Q, W, C>(&equation, step, tolerance, work, evaluations) {
             let at_start = equation.residual(step.tau, &step.start.x, &step.start_rates.x);
             return if at_start.iter().all(|v| v.is_finite()) { f64::INFINITY } else { f64::NAN };

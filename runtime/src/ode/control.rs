@@ -41,16 +41,14 @@ impl Controller {
             self.rejected = true;
             return (false, h * NOT_FINITE_SHRINK);
         }
-        // The trend of the errors takes the place of the proportional part.
-        let beta = if self.predictive { 0.0 } else { BETA };
-        let alpha = 1.0 / self.order - 0.2 * beta;
+        let alpha = 1.0 / self.order - 0.2 * BETA;
         let plain = SAFETY * error.max(1e-12).powf(-alpha);
         if error > 1.0 {
             self.rejected = true;
             return (false, h * plain.clamp(LARGEST_SHRINK, 1.0));
         }
         let limit = if self.rejected { 1.0 } else { LARGEST_GROWTH };
-        let factor = (plain * self.previous.powf(beta)).clamp(LARGEST_SHRINK, limit);
+        let factor = (plain * self.previous.powf(BETA)).clamp(LARGEST_SHRINK, limit);
         let factor = factor.min(self.trend(error, h)).max(LARGEST_SHRINK);
         self.previous = error.max(1e-4);
         self.rejected = false;

@@ -101,10 +101,11 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
 impl<const N: usize, const S: usize> System<N, S> {
     /// Fills in the blocks and eliminates; false when the matrix is singular or not finite.
     pub(super) fn factorise(&mut self, tableau: &Tableau<S>, h: f64, linearised: &[Linearised<f64, N>; S]) -> bool {
+        let frequency = 1.0 / h;
         for k in 0..S {
             for i in 0..S {
                 self.integration[k][i] = h * tableau.a[i][k];
-                self.differentiation[k][i] = tableau.inverse[i][k] / h;
+                self.differentiation[k][i] = frequency * tableau.inverse[i][k];
             }
         }
         let filled = Filled::of(linearised);
@@ -125,12 +126,17 @@ impl<const N: usize, const S: usize> System<N, S> {
         for column in 0..N {
             let (by_state, by_rate) = (filled.states[column][row] != 0, filled.rates[column][row] != 0 && !candidate);
             if by_state || by_rate {
-                self.diagonals[row][column] = linearised.each_ref().map(|at| at.dx[column][row]);
+                for (entry, at) in self.diagonals[row][column].iter_mut().zip(linearised) {
+                    *entry = at.dx[column][row];
+                }
                 pattern.diagonal |= 1 << column;
             }
             if by_rate {
                 let block = pattern.fill_up(&mut self.blocks[row], &self.diagonals[row], column, &self.differentiation);
-                let mass = linearised.each_ref().map(|at| -at.dk[column][row]);
+                let mut mass = [0.0; S];
+                for i in 0..S {
+                    mass[i] = -linearised[i].dk[column][row];
+                }
                 for k in 0..S {
                     block[k] = less_entries(block[k], mass, self.differentiation[k]);
                 }
