@@ -1,10 +1,10 @@
 //! The linear system of all stages, with states that need only be substituted taken out first.
 //!
-//! The unknowns are the increments z_a = h A k_a of the state at the stages. Then an equation that has no rate of a state has
-//! diagonal blocks B_ab = F_x, and one that has it has B_ab = F_x + F_k A^-1/h. A state t whose equation is x_t' = f
-//! with an f that does not depend on x_t has B_tt = A^-1/h: it follows from the others by z_t = h A (r_t - sum_b B_tb z_b), which
-//! turns the other blocks into B_ab - B_at h A B_tb. What remains is inverted with pivoting. Blocks that are zero cost nothing,
-//! diagonal ones little.
+//! The unknowns are w_a = A k_a, with which the state at the stages changes by h w_a: unlike the changes themselves they are
+//! known where h is zero. An equation that has no rate of a state has diagonal blocks B_ab = h F_x, and one that has it has
+//! B_ab = h F_x + F_k A^-1. A state t whose equation is x_t' = f with an f that does not depend on x_t has B_tt = A^-1: it follows
+//! from the others by w_t = A (r_t - sum_b B_tb w_b), which turns the other blocks into B_ab - B_at A B_tb. What remains
+//! is inverted with pivoting. Blocks that are zero cost nothing, diagonal ones little.
 
 use super::coefficients::Tableau;
 use super::fused::{Block, applied, entries, less_applied, less_entries, scaled};
@@ -19,7 +19,7 @@ type Staged<const S: usize> = [f64; S];
 pub(super) struct System<const N: usize, const S: usize> {
     /// Diagonal blocks by equation and state, those in [`Pattern::diagonal`].
     diagonals: Vec<[Staged<S>; N]>,
-    /// Full blocks by equation and state, those in [`Pattern::full`]; of substituted equations h A B_tb.
+    /// Full blocks by equation and state, those in [`Pattern::full`]; of substituted equations A B_tb.
     blocks: Vec<[Block<S>; N]>,
     /// Which blocks of an equation are what.
     patterns: [Pattern; N],
@@ -29,9 +29,11 @@ pub(super) struct System<const N: usize, const S: usize> {
     substituted: usize,
     /// ... and which: one bit each. They are taken in ascending order.
     taken: u64,
-    /// h A.
+    /// Size of the step.
+    h: f64,
+    /// A.
     integration: Block<S>,
-    /// A^-1/h.
+    /// A^-1.
     differentiation: Block<S>,
     /// What the remaining equations were multiplied with.
     scales: Vec<Staged<S>>,
@@ -46,7 +48,7 @@ struct Pattern {
     diagonal: u64,
     /// Columns with a full block.
     full: u64,
-    /// The own column, where its block is A^-1/h and not stored.
+    /// The own column, where its block is A^-1 and not stored.
     implied: u64,
 }
 
@@ -90,6 +92,7 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
             order: core::array::from_fn(|a| a),
             substituted: 0,
             taken: 0,
+            h: 0.0,
             integration: [[0.0; S]; S],
             differentiation: [[0.0; S]; S],
             scales: vec![[1.0; S]; N],
@@ -101,11 +104,11 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
 impl<const N: usize, const S: usize> System<N, S> {
     /// Fills in the blocks and eliminates; false when the matrix is singular or not finite.
     pub(super) fn factorise(&mut self, tableau: &Tableau<S>, h: f64, linearised: &[Linearised<f64, N>; S]) -> bool {
-        let frequency = 1.0 / h;
+        self.h = h;
         for k in 0..S {
             for i in 0..S {
-                self.integration[k][i] = h * tableau.a[i][k];
-                self.differentiation[k][i] = frequency * tableau.inverse[i][k];
+                self.integration[k][i] = tableau.a[i][k];
+                self.differentiation[k][i] = tableau.inverse[i][k];
             }
         }
         let filled = Filled::of(linearised);
@@ -127,7 +130,7 @@ impl<const N: usize, const S: usize> System<N, S> {
             let (by_state, by_rate) = (filled.states[column][row] != 0, filled.rates[column][row] != 0 && !candidate);
             if by_state || by_rate {
                 for (entry, at) in self.diagonals[row][column].iter_mut().zip(linearised) {
-                    *entry = at.dx[column][row];
+                    *entry = self.h * at.dx[column][row];
                 }
                 pattern.diagonal |= 1 << column;
             }
@@ -180,7 +183,7 @@ impl<const N: usize, const S: usize> System<N, S> {
         (self.substituted, self.taken) = (first, gone);
     }
 
-    /// Turns B_tb into h A B_tb.
+    /// Turns B_tb into A B_tb.
     #[inline]
     fn integrate(&mut self, t: usize, column: usize) {
         let (pattern, block) = (&mut self.patterns[t], &mut self.blocks[t][column]);
@@ -198,7 +201,7 @@ impl<const N: usize, const S: usize> System<N, S> {
         }
     }
 
-    /// Subtracts B_at h A B_tb from B_ab; a is `row`, b is `column`.
+    /// Subtracts B_at A B_tb from B_ab; a is `row`, b is `column`.
     #[inline]
     fn subtract(&mut self, row: usize, t: usize, column: usize) {
         let (pattern, diagonals) = (&mut self.patterns[row], &self.diagonals[row]);
@@ -316,7 +319,7 @@ impl<const N: usize, const S: usize> System<N, S> {
                 rates[i][a] = rate[i];
             }
         }
-        Solution { rates, increments: x }
+        Solution { rates, increments: x.map(|x| x.map(|v| self.h * v)) }
     }
 
     /// The increments of the remaining states, in the place of their equations' right-hand sides.
