@@ -1,10 +1,10 @@
 //! The linear system of all stages, with states that need only be substituted taken out first.
 //!
-//! The unknowns are the increments z_a = h A k_a of the state at the stages. Then an equation that has no rate of a state has
-//! diagonal blocks B_ab = F_x, and one that has it has B_ab = F_x + F_k A^-1/h. A state t whose equation is x_t' = f
-//! with an f that does not depend on x_t has B_tt = A^-1/h: it follows from the others by z_t = h A (r_t - sum_b B_tb z_b), which
-//! turns the other blocks into B_ab - B_at h A B_tb. What remains is inverted with pivoting. Blocks that are zero cost nothing,
-//! diagonal ones little.
+//! The unknowns are w_a = A k_a, with which the state at the stages changes by h w_a: unlike the changes themselves they are
+//! known where h is zero. An equation that has no rate of a state has diagonal blocks B_ab = h F_x, and one that has it has
+//! B_ab = h F_x + F_k A^-1. A state t whose equation is x_t' = f with an f that does not depend on x_t has B_tt = A^-1: it follows
+//! from the others by w_t = A (r_t - sum_b B_tb w_b), which turns the other blocks into B_ab - B_at A B_tb. What remains
+//! is inverted with pivoting. Blocks that are zero cost nothing, diagonal ones little.
 
 use super::coefficients::Tableau;
 use super::fused::{Block, applied, entries, less_applied, less_entries, scaled};
@@ -19,7 +19,7 @@ type Staged<const S: usize> = [f64; S];
 pub(super) struct System<const N: usize, const S: usize> {
     /// Diagonal blocks by equation and state, those in [`Pattern::diagonal`].
     diagonals: Vec<[Staged<S>; N]>,
-    /// Full blocks by equation and state, those in [`Pattern::full`]; of substituted equations h A B_tb.
+    /// Full blocks by equation and state, those in [`Pattern::full`]; of substituted equations A B_tb.
     blocks: Vec<[Block<S>; N]>,
     /// Which blocks of an equation are what.
     patterns: [Pattern; N],
@@ -29,9 +29,11 @@ pub(super) struct System<const N: usize, const S: usize> {
     substituted: usize,
     /// ... and which: one bit each. They are taken in ascending order.
     taken: u64,
-    /// h A.
+    /// Size of the step.
+    h: f64,
+    /// A.
     integration: Block<S>,
-    /// A^-1/h.
+    /// A^-1.
     differentiation: Block<S>,
     /// What the remaining equations were multiplied with.
     scales: Vec<Staged<S>>,
@@ -46,7 +48,7 @@ struct Pattern {
     diagonal: u64,
     /// Columns with a full block.
     full: u64,
-    /// The own column, where its block is A^-1/h and not stored.
+    /// The own column, where its block is A^-1 and not stored.
     implied: u64,
 }
 
@@ -90,6 +92,7 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
             order: core::array::from_fn(|a| a),
             substituted: 0,
             taken: 0,
+            h: 0.0,
             integration: [[0.0; S]; S],
             differentiation: [[0.0; S]; S],
             scales: vec![[1.0; S]; N],
@@ -101,11 +104,11 @@ impl<const N: usize, const S: usize> Default for System<N, S> {
 impl<const N: usize, const S: usize> System<N, S> {
     /// Fills in the blocks and eliminates; false when the matrix is singular or not finite.
     pub(super) fn factorise(&mut self, tableau: &Tableau<S>, h: f64, linearised: &[Linearised<f64, N>; S]) -> bool {
-        let frequency = 1.0 / h;
+        self.h = h;
         for k in 0..S {
             for i in 0..S {
-                self.integration[k][i] = h * tableau.a[i][k];
-                self.differentiation[k][i] = frequency * tableau.inverse[i][k];
+                self.integration[k][i] = tableau.a[i][k];
+                self.differentiation[k][i] = tableau.inverse[i][k];
             }
         }
         let filled = Filled::of(linearised);
@@ -127,7 +130,7 @@ impl<const N: usize, const S: usize> System<N, S> {
             let (by_state, by_rate) = (filled.states[column][row] != 0, filled.rates[column][row] != 0 && !candidate);
             if by_state || by_rate {
                 for (entry, at) in self.diagonals[row][column].iter_mut().zip(linearised) {
-                    *entry = at.dx[column][row];
+                    *entry = self.h * at.dx[column][row];
                 }
                 pattern.diagonal |= 1 << column;
             }
@@ -180,7 +183,7 @@ impl<const N: usize, const S: usize> System<N, S> {
         (self.substituted, self.taken) = (first, gone);
     }
 
-    /// Turns B_tb into h A B_tb.
+    /// Turns B_tb into A B_tb.
     #[inline]
     fn integrate(&mut self, t: usize, column: usize) {
         let (pattern, block) = (&mut self.patterns[t], &mut self.blocks[t][column]);
@@ -198,7 +201,7 @@ impl<const N: usize, const S: usize> System<N, S> {
         }
     }
 
-    /// Subtracts B_at h A B_tb from B_ab; a is `row`, b is `column`.
+    /// Subtracts B_at A B_tb from B_ab; a is `row`, b is `column`.
     #[inline]
     fn subtract(&mut self, row: usize, t: usize, column: usize) {
         let (pattern, diagonals) = (&mut self.patterns[row], &self.diagonals[row]);
@@ -316,7 +319,7 @@ impl<const N: usize, const S: usize> System<N, S> {
                 rates[i][a] = rate[i];
             }
         }
-        Solution { rates, increments: x }
+        Solution { rates, increments: x.map(|x| x.map(|v| self.h * v)) }
     }
 
     /// The increments of the remaining states, in the place of their equations' right-hand sides.
@@ -386,77 +389,4 @@ fn bits(mut set: u64) -> impl Iterator<Item = usize> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::System;
-    use crate::model::Linearised;
-    use crate::ode::radau::{RADAU5, weighted};
-    use nalgebra::{DMatrix, DVector};
-
-    /// Derivatives with zeros where `zero` says so, and unit rows in the mass matrix where `unit` says so.
-    fn linearised<const N: usize>(
-        zero: &dyn Fn(usize, usize) -> bool,
-        unit: &dyn Fn(usize) -> bool,
-    ) -> [Linearised<f64, N>; 5] {
-        core::array::from_fn(|i| {
-            let dx = |b: usize, a: usize| {
-                if zero(a, b) { 0.0 } else { ((1 + i + 3 * a + 5 * b + a * b) as f64).sin() }
-            };
-            let dk = |b: usize, a: usize| match unit(a) {
-                true => f64::from(u8::from(a == b)),
-                false => ((2 + i + 7 * a + 2 * b) as f64).cos(),
-            };
-            let matrix = |f: &dyn Fn(usize, usize) -> f64| core::array::from_fn(|b| core::array::from_fn(|a| f(b, a)));
-            Linearised { value: [0.0; N], dx: matrix(&dx), dk: matrix(&dk) }
-        })
-    }
-
-    fn check<const N: usize>(zero: &dyn Fn(usize, usize) -> bool, unit: &dyn Fn(usize) -> bool) {
-        let (h, at) = (0.3, linearised::<N>(zero, unit));
-        let mut system = System::<N, 5>::default();
-        let right: [[f64; N]; 5] = core::array::from_fn(|i| core::array::from_fn(|a| ((i + 2 * a) as f64).cos()));
-        let matrix = DMatrix::from_fn(5 * N, 5 * N, |row, column| {
-            let (i, a, j, b) = (row / N, row % N, column / N, column % N);
-            h * RADAU5.a[i][j] * at[i].dx[b][a] + if i == j { at[i].dk[b][a] } else { 0.0 }
-        });
-        let exact = matrix.lu().solve(&DVector::from_fn(5 * N, |row, _| right[row / N][row % N]));
-        // Twice: what is left of a first matrix must not matter.
-        for _ in 0..2 {
-            assert!(system.factorise(&RADAU5, h, &at));
-            let solution = system.solve(&right);
-            for (x, exact) in solution.rates.as_flattened().iter().zip(exact.iter().flatten()) {
-                approx::assert_relative_eq!(*x, *exact, max_relative = 1e-9);
-            }
-            for i in 0..5 {
-                let increments = weighted(&RADAU5.a[i], &solution.rates);
-                for a in 0..N {
-                    approx::assert_relative_eq!(solution.increments[a][i], h * increments[a], epsilon = 1e-12);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn solves_what_nalgebra_solves() {
-        // Nothing, all, some to substitute; a chain; a pair of which the second is no longer to be substituted after the first.
-        check::<3>(&|_, _| false, &|_| false);
-        check::<1>(&|_, _| true, &|_| true);
-        check::<4>(&|a, b| a == b || a > b + 1, &|_| true);
-        check::<4>(&|a, b| a == b && a != 2, &|a| a != 1);
-        check::<5>(&|a, b| a == b || (a + b) % 3 == 1, &|a| a > 0);
-        check::<2>(&|a, b| a == b, &|_| true);
-        // The second depends on the first, not the other way round: both are substituted.
-        check::<4>(&|a, b| a == b && a < 2 || (a, b) == (0, 1), &|a| a < 2);
-        check::<5>(&|a, b| a == b && a < 3 || a < b && b < 3, &|a| a < 3);
-    }
-
-    #[test]
-    fn refuses_what_has_no_solution() {
-        let mut at = linearised::<2>(&|_, _| false, &|_| false);
-        for stage in &mut at {
-            (stage.dx, stage.dk) = ([[1.0, 1.0]; 2], [[0.5, 0.5]; 2]);
-        }
-        assert!(!System::<2, 5>::default().factorise(&RADAU5, 0.1, &at));
-        at[3].dx[0][1] = f64::NAN;
-        assert!(!System::<2, 5>::default().factorise(&RADAU5, 0.1, &at));
-    }
-}
+mod tests;
