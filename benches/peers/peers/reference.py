@@ -7,20 +7,26 @@ converge. The Jacobian of the map is a central difference in the same precision,
 
 from __future__ import annotations
 
+import json
 import math
+import os
+import sys
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import mpmath
 import numpy as np
 from mpmath import mpf
 
-from peers import equations
+from peers import equations, units
 
 DIGITS = 40
 """Working precision; differences with a step of 1e-12 keep more than 20 digits."""
-FINE, COARSE = (22, 6), (18, 5)
+RESOLUTIONS = {"a": ((22, 6), (18, 5)), "b": ((22, 6), (18, 5)), "c": ((24, 10), (20, 9))}
 """Degree and number of elements of the two resolutions that are compared."""
+LARGEST_SPREAD = 1e-13
+"""By how much they may differ."""
 Residual = Callable[[Any, Sequence[Any], Sequence[Any]], Sequence[Any]]
 
 
@@ -145,8 +151,8 @@ def result(key: str, values: Mapping[str, float], start: Sequence[float], durati
 def compute(key: str, values: Mapping[str, float], start: Sequence[float], duration: float) -> tuple[list[float], float]:
     """The result of a unit, and by how much two resolutions differ."""
     with mpmath.workdps(DIGITS):
-        fine = result(key, values, start, duration, Collocation(*FINE))
-        coarse = result(key, values, start, duration, Collocation(*COARSE))
+        fine = result(key, values, start, duration, Collocation(*RESOLUTIONS[key][0]))
+        coarse = result(key, values, start, duration, Collocation(*RESOLUTIONS[key][1]))
         spread = max(abs(x - y) for x, y in zip(fine, coarse))
         if key == "a":
             psi, short = mpf(values["psi"]), mpf(values["l_b"])
@@ -155,3 +161,21 @@ def compute(key: str, values: Mapping[str, float], start: Sequence[float], durat
             # The flow preserves area in (q, r p), so the determinant has a closed form.
             spread = max(spread, abs(j00 * j11 - j01 * j10 - closed))
         return [float(x) for x in fine], float(spread)
+
+
+def main(gaits: Path, cases: Path) -> None:
+    """Adds the results to the gaits: the file of units that all codes read."""
+    known = json.loads(gaits.read_text())
+    for key, case in known.items():
+        values, spread = compute(key, case["parameters"], case["start"], case["duration"])
+        print(f"reference of unit {key}: two resolutions differ by {spread:.1e}", file=sys.stderr)
+        if not spread <= LARGEST_SPREAD:
+            raise ArithmeticError(f"the reference of unit {key} is not exact enough")
+        case |= {"reference": values, "wanted": units.WANTED[key]}
+    whole = cases.with_suffix(".new")
+    whole.write_text(json.dumps(known, indent=1))
+    os.replace(whole, cases)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))
