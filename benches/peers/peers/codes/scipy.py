@@ -1,4 +1,4 @@
-"""SciPy's `solve_ivp` with right-hand sides compiled by numba; state and variations as one system."""
+"""SciPy with right-hand sides compiled by numba; state and variations as one system."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from scipy.integrate import solve_ivp
+from scipy.integrate import ode, solve_ivp
 
 from peers import equations
-from peers.measure import TOLERANCES, Attempt, Call, Plain
+from peers.measure import TOLERANCES, Attempt, Plain
 from peers.units import Unit
 
 VERSIONS = ("scipy", "numba")
@@ -20,17 +20,25 @@ sin, cos, sqrt = math.sin, math.cos, math.sqrt
 
 
 def attempts(unit: Unit) -> list[Attempt]:
-    """Explicit methods for a and b, stiff ones for c."""
+    """Explicit methods for a and b, stiff ones for c: by the compiled integrators of `ode`, and by `solve_ivp`."""
+    over = ", over the crank angle" if unit.key == "c" else ""
+    compiled = [
+        Attempt(f"ode({method!r}), numba{over}", lambda tol, method=method: Plain(by_ode(unit, method, tol)), TOLERANCES)
+        for method in (("lsoda",) if unit.key == "c" else ("dop853", "lsoda"))
+        if unit.key != "b"
+    ]
+    if unit.key == "b":
+        how = "ode('dop853'), numba, event by Newton's method by hand"
+        compiled = [Attempt(how, lambda tol: Plain(stopped(unit, tol)), TOLERANCES)]
     build = {"a": prescribed, "b": switched, "c": crank}[unit.key]
-    methods = ("LSODA", "Radau", "BDF") if unit.key == "c" else ("DOP853", "LSODA")
-    event = {"a": "", "b": ", terminal event", "c": ", over the crank angle"}
-    return [
+    event = ", terminal event" if unit.key == "b" else ""
+    return compiled + [
         Attempt(
-            f"{method}, numba{event[unit.key]}",
-            lambda tolerance, method=method: Plain(build(unit, method, tolerance)),
+            f"solve_ivp, {method}, numba{event}{over}",
+            lambda tol, method=method: Plain(build(unit, method, tol)),
             TOLERANCES,
         )
-        for method in methods
+        for method in (("LSODA", "Radau", "BDF") if unit.key == "c" else ("DOP853",))
     ]
 
 
@@ -100,10 +108,60 @@ def switched(unit: Unit, method: str, tolerance: float) -> Callable[[], list[flo
     return work
 
 
-def crank(unit: Unit, method: str, tolerance: float) -> Callable[[], list[float]]:
-    """Unit c over the crank angle.
+def by_ode(unit: Unit, method: str, tolerance: float) -> Callable[[], list[float]]:
+    """Units a and c by one of the compiled integrators, which is set up once."""
+    if unit.key == "a":
+        right, matrix, (end, first) = pendulum(unit, 2)[0], None, (math.pi / unit.parameters["omega"], 0)
+        start = np.array([*unit.start, 1.0, 0.0, 0.0, 1.0])
+    else:
+        right, matrix, start = over_crank(unit)
+        end, first = math.pi, 1
+    more = {"with_jacobian": True} if matrix else {}
+    run = ode(right, matrix).set_integrator(method, rtol=tolerance, atol=0.1 * tolerance, nsteps=100_000, **more)
+    i, n = first, 2 + first
 
-    The matrix for Newton's method is that of the state, repeated for the variations: what it lacks only slows convergence.
+    def work() -> list[float]:
+        run.set_initial_value(start, 0.0)
+        y = run.integrate(end)
+        return equations.landed(unit.parameters, y[i:n], (y[n + i : 2 * n], y[2 * n + i : 3 * n]))
+
+    return work
+
+
+def stopped(unit: Unit, tolerance: float) -> Callable[[], list[float]]:
+    """Unit b: stopped after the step that crosses the event, then back to it by Newton's method, one integration an iteration."""
+    first, second, leg = pendulum(unit, 1)
+    psi = unit.parameters["psi"]
+    start = np.array([psi, unit.start[0], 0.0, 1.0])
+
+    def crossed(_tau: float, y: np.ndarray) -> int:
+        return -1 if y[0] < psi else 0
+
+    def made(right: Any) -> Any:
+        return ode(right).set_integrator("dop853", rtol=tolerance, atol=0.1 * tolerance)
+
+    one, two, back = made(first), made(second), made(second)
+    two.set_solout(crossed)
+
+    def work() -> list[float]:
+        one.set_initial_value(start, 0.0)
+        two.set_initial_value(one.integrate(leg.shortened), 0.0)
+        y = two.integrate(2.0)
+        for _ in range(4):
+            miss = (psi - y[0]) / (y[1] / leg.short)
+            if abs(miss) < 1e-13:
+                break
+            back.set_initial_value(y, 0.0)
+            y = back.integrate(miss)
+        return equations.switched(unit.parameters, *y.tolist(), sin)
+
+    return work
+
+
+def over_crank(unit: Unit) -> tuple[Any, Any, np.ndarray]:
+    """Unit c: right-hand side, matrix for Newton's method, and start.
+
+    The matrix is that of the state, repeated for the variations: what it lacks only slows convergence.
     """
     made = equations.crank(unit.parameters, sin, cos, sqrt, njit)
     field, variation = made.field, made.variation
@@ -127,6 +185,12 @@ def crank(unit: Unit, method: str, tolerance: float) -> Callable[[], list[float]
                 out[i, i + j], out[i + 1, i + j], out[i + 2, i + j] = column
         return out
 
+    return right, matrix, start
+
+
+def crank(unit: Unit, method: str, tolerance: float) -> Callable[[], list[float]]:
+    """Unit c over the crank angle by `solve_ivp`."""
+    right, matrix, start = over_crank(unit)
     options = {"method": method, "rtol": tolerance, "atol": 0.1 * tolerance, "jac": matrix, "t_eval": (math.pi,)}
 
     def work() -> list[float]:
