@@ -26,8 +26,8 @@ from collections.abc import Callable, Mapping
 from types import SimpleNamespace
 from typing import Any
 
-FLOOR = 1e-12
-"""Added to m r_1^2 (kg m^2) where an equation is divided by it."""
+FLOOR = 1e-9
+"""Added to m r_1^2 (kg m^2) where an equation is divided by it; it changes the map by half of it, 4.5e-10."""
 Scalar = Any
 """A number, or whatever a code computes with."""
 Function = Callable[..., Any]
@@ -65,14 +65,19 @@ def leg(values: Mapping[str, float], sin: Function, cos: Function, jit: Function
 
 
 def crank(
-    values: Mapping[str, float], sin: Function, cos: Function, sqrt: Function, jit: Function = as_it_is
+    values: Mapping[str, float],
+    sin: Function,
+    cos: Function,
+    sqrt: Function,
+    jit: Function = as_it_is,
+    floor: float = FLOOR,
 ) -> SimpleNamespace:
     """The crank-slider climber over phi.
 
     `legs(phi)`: r, r_1, r_2. `forces(phi, w, q, p)`: right-hand side of the first equation, with w = Omega.
     `idle`: Omega_0. `damping`: c. `residual(phi, u, du)`: left minus right-hand sides, the first one divided by c.
     `field(phi, w, q, p)` and `variation(phi, w, q, p, dw, dq, dp)`: solved for the derivatives, for codes that need that. There m r_1^2
-    is 0 at the dead centres and gets FLOOR added, which changes the map by less than 1e-10.
+    is 0 at the dead centres and gets `floor` (kg m^2) added.
     """
     m, g, k, l_b = values["m"], values["g"], values["k"], values["l_b"]
     a, b = values["l_crank"], values["l_coupler"]
@@ -110,7 +115,7 @@ def crank(
     def field(phi: Scalar, w: Scalar, q: Scalar, p: Scalar) -> tuple[Scalar, Scalar, Scalar]:
         r, r_1, _ = legs(phi)
         return (
-            forces(phi, w, q, p) / ((m * r_1 * r_1 + FLOOR) * w),
+            forces(phi, w, q, p) / ((m * r_1 * r_1 + floor) * w),
             p / (r * w),
             -g * sin(q) / w - r_1 * p / r,
         )
@@ -123,7 +128,7 @@ def crank(
         dpull = -m * g * sin(q) * dq + 2.0 * m * p / r * dp
         dforces = r_1 * dpull - (damping + 2.0 * m * r_1 * r_2 * w) * dw
         return (
-            (dforces - forces(phi, w, q, p) / w * dw) / ((m * r_1 * r_1 + FLOOR) * w),
+            (dforces - forces(phi, w, q, p) / w * dw) / ((m * r_1 * r_1 + floor) * w),
             dp / (r * w) - p / (r * w * w) * dw,
             -g * cos(q) / w * dq + g * sin(q) / (w * w) * dw - r_1 * dp / r,
         )

@@ -83,7 +83,7 @@ def measure(attempt: Attempt | Unable, unit: Unit, quick: bool, budget: float = 
             continue
         closest = min(closest, unit.error(result))
         if unit.error(result) <= unit.wanted:
-            shown = f"{setting:.0e}" if isinstance(setting, float) else str(setting)
+            shown = power(setting, 0) if isinstance(setting, float) else str(setting)
             return row | {
                 "status": "ok",
                 "setting": f"{attempt.meaning} {shown}",
@@ -91,8 +91,13 @@ def measure(attempt: Attempt | Unable, unit: Unit, quick: bool, budget: float = 
                 "deviation": unit.deviation(result),
                 "median_us": microseconds(call, quick),
             }
-    reached = f"closest: {closest:.1e}" if closest < float("inf") else ""
+    reached = f"closest: {power(closest, 1)}" if closest < float("inf") else ""
     return row | {"status": "missed", "note": "; ".join(x for x in (reached, failure) if x)}
+
+
+def power(number: float, digits: int) -> str:
+    """A number with a power of ten, as `3e-9`."""
+    return f"{number:.{digits}e}".replace("e-0", "e-")
 
 
 def microseconds(call: Call, quick: bool) -> float:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from peers.measure import power
 from peers.units import TITLES, WANTED
 
 NAMES = {
@@ -46,7 +47,7 @@ def table(rows: Sequence[Row], versions: Mapping[str, str], loads: Sequence[floa
         if not chosen:
             continue
         what = "determinant" if key == "a" else "image and Jacobian"
-        parts.append(f"**{title}**: error of the {what} at most {WANTED[key]:.0e}\n")
+        parts.append(f"**{title}**: error of the {what} at most {power(WANTED[key], 0)}\n")
         parts.append("| code | configuration | setting | error | us a unit |\n|---|---|---|---|---|")
         order = {name: i for i, name in enumerate(NAMES)}
         parts += [line(row) for row in sorted(chosen, key=lambda row: order.get(row["code"], len(order)))]
@@ -61,9 +62,9 @@ def line(row: Row) -> str:
     """One row of a table."""
     name, configuration = NAMES.get(row["code"], row["code"]), row["configuration"]
     if row["status"] == "ok":
-        error = f"{row['error']:.1e}"
+        error = power(row["error"], 1)
         if row["unit"] == "a":
-            error += f" ({row['deviation']:.1e})"
+            error += f" ({power(row['deviation'], 1)})"
         return f"| {name} | {configuration} | {row['setting']} | {error} | {amount(row['median_us'])} |"
     said = {"unable": "cannot", "missed": "misses the error", "failed": "failed"}[row["status"]]
     return f"| {name} | {configuration} | | | {said}: {row['note']} |"

@@ -33,7 +33,7 @@ ORDER_4 = (
     np.array([1, 2, 2, 1]) / 6,
     np.array([0, 0.5, 0.5, 1.0]),
 )
-WHY_NO_EVENT = "to be filled"
+NO_EVENT = "measured: `zero` and `transition`, marked experimental, find the event and then end in CV_ILL_INPUT"
 GUESS = 1e-3
 """By how much the event's time is guessed wrongly in unit b (s): a fixed grid needs a guess, and a sweep has one of about that quality."""
 
@@ -67,7 +67,8 @@ def attempts(unit: Unit) -> list[Attempt | Unable]:
         )
     ]
     if unit.key == "b":
-        return [*grids, Unable("CVODES", WHY_NO_EVENT)]
+        with_guess = Attempt(f"CVODES, variations as part of the system{how}", lambda tol: guessed(unit, tol), TOLERANCES)
+        return [*grids, with_guess, Unable("CVODES, its own events", NO_EVENT)]
     return [*grids, *with_cvodes]
 
 
@@ -316,4 +317,26 @@ def cvodes(unit: Unit, tolerance: float, by_casadi: bool) -> Call:
     else:
         variations = [(final[size * i + size - 2], final[size * i + size - 1]) for i in (1, 2)]
     result = ca.vertcat(*equations.landed(values, (q, p), variations))
+    return Buffered(ca.Function("unit", [z], [result]), unit.start)
+
+
+def guessed(unit: Unit, tolerance: float) -> Call:
+    """Unit b by CVODES up to a guess of the event, then Newton's method on the solution; time is scaled so that it can vary."""
+    values, tau, span, y = unit.parameters, ca.SX.sym("tau"), ca.SX.sym("span"), ca.SX.sym("y", 4)
+    hang, leg = equations.swing(values, sin, cos), equations.leg(values, sin, cos)
+    options = {"reltol": tolerance, "abstol": 0.1 * tolerance, "max_num_steps": 100_000}
+
+    def flow(name: str, r: Any, v: Any, problem: dict[str, Any], end: float) -> ca.Function:
+        right = ca.vertcat(*hang.field(r, v, y[0], y[1]), *hang.variation(r, v, y[0], y[2], y[3]))
+        scale = problem.get("p", 1.0)
+        return ca.integrator(name, "cvodes", {"x": y, "ode": scale * right, **problem}, 0.0, end, options)
+
+    first = flow("first", *leg.shortening(tau), {"t": tau}, leg.shortened)
+    second = flow("second", leg.short, 0.0, {"p": span}, 1.0)
+    z = ca.MX.sym("z")
+    state = first(x0=ca.vertcat(values["psi"], z, 0.0, 1.0))["xf"]
+    state = second(x0=state, p=unit.duration + GUESS - leg.shortened)["xf"]
+    for _ in range(2):
+        state = second(x0=state, p=(values["psi"] - state[0]) / (state[1] / leg.short))["xf"]
+    result = ca.vertcat(*equations.switched(values, *(state[i] for i in range(4)), sin))
     return Buffered(ca.Function("unit", [z], [result]), unit.start)

@@ -16,6 +16,8 @@ from peers.units import Unit
 VERSIONS = ("heyoka",)
 
 LANES = 8
+FLOOR = 1e-8
+"""Added in unit c (kg m^2). Steps go with its inverse square root; it alone makes an error of 4.5e-9."""
 TOLERANCES = tuple(factor * 10.0**-power for power in range(6, 16) for factor in (1.0, 0.3))
 """Tolerances of Taylor's method, which fixes its order."""
 Expressions = list[tuple[Any, Any]]
@@ -24,8 +26,12 @@ Expressions = list[tuple[Any, Any]]
 def attempts(unit: Unit) -> list[Attempt | Unable]:
     """One unit at a time, and a batch."""
     if unit.key == "c":
-        why = "an explicit method; the equation has no Taylor series in reach of its first step where the mass vanishes"
-        return [Unable("Taylor", why)]
+        how = f"over the crank angle, {FLOOR:g} kg m^2 added to the mass that vanishes"
+        return [
+            Attempt(f"Taylor, {how}", lambda tol: Crank(unit, tol, 1), TOLERANCES, "tol"),
+            Attempt(f"Taylor, {how}, {LANES} at a time", lambda tol: Crank(unit, tol, LANES), TOLERANCES, "tol"),
+            Unable("Taylor, the equations as they are", "the method is explicit; it needs the mass inverted"),
+        ]
     made = Prescribed if unit.key == "a" else Switched
     event = "" if unit.key == "a" else ", terminal event and event-time term by hand"
     return [
@@ -130,3 +136,33 @@ class Switched(Call):
     def repeat(self, count: int) -> None:
         for _ in range(count):
             self.once()
+
+
+class Crank(Call):
+    """Unit c. What is timed leaves the state and its variations just before touch-down, as in unit a."""
+
+    def __init__(self, unit: Unit, tolerance: float, lanes: int) -> None:
+        self.unit, self.units = unit, lanes
+        made = equations.crank(unit.parameters, hy.sin, hy.cos, hy.sqrt, floor=FLOOR)
+        state = hy.make_vars("w", "q", "p")
+        variables, right = [*state], [*made.field(hy.time, *state)]
+        for i in range(2):
+            d = hy.make_vars(f"dw{i}", f"dq{i}", f"dp{i}")
+            variables += d
+            right += made.variation(hy.time, *state, *d)
+        self.flow = integrator(list(zip(variables, right)), tolerance, lanes)
+        rest = np.tile([[0.0], [1.0], [0.0], [0.0], [0.0], [1.0]], lanes)
+        start = np.vstack([np.full(lanes, made.idle), starts(unit, lanes), rest])
+        self.start = start.reshape(self.flow.state.shape)
+
+    def result(self) -> Sequence[float]:
+        self.repeat(1)
+        y = self.flow.state.reshape(9, -1)[:, 0]
+        return equations.landed(self.unit.parameters, y[1:3], (y[4:6], y[7:9]))
+
+    def repeat(self, count: int) -> None:
+        flow, start, lanes = self.flow, self.start, self.units
+        for _ in range(count):
+            rewind(flow, lanes)
+            flow.state[:] = start
+            flow.propagate_until(math.pi)

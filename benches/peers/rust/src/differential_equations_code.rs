@@ -16,7 +16,7 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 use std::f64::consts::PI;
 
-/// Added to m r_1^2 (kg m^2), so that the equation can be divided by it; changes the map by less than 1e-10.
+/// Added to m r_1^2 (kg m^2), so that the equation can be divided by it; with more the methods miss the error.
 const FLOOR: f64 = 1e-12;
 
 pub fn attempts(unit: &Unit) -> Result<Vec<Attempt>, Failure> {

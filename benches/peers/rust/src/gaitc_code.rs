@@ -10,7 +10,9 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
 /// Key, model and what is set other than in its spec (SI units).
-const UNITS: [(&str, &str, &[(&str, f64)]); 3] = [
+type Named = (&'static str, &'static str, &'static [(&'static str, f64)]);
+
+const UNITS: [Named; 3] = [
     ("a", "prescribed_length", &[("psi", 25.0 * std::f64::consts::PI / 180.0)]),
     ("b", "angle_switched", &[]),
     ("c", "self_exciting", &[]),

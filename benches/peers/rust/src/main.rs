@@ -14,6 +14,7 @@ mod diffsol_code;
 #[cfg(feature = "gaitc")]
 mod gaitc_code;
 mod measure;
+#[cfg_attr(not(any(feature = "diffsol", feature = "differential-equations")), allow(dead_code))] // gaitc has its own
 mod unit;
 
 use measure::Attempt;

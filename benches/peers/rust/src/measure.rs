@@ -36,7 +36,7 @@ impl Attempt {
                     closest = closest.min(error);
                     if error <= unit.wanted {
                         return json!({
-                            "configuration": self.configuration, "status": "ok", "setting": format!("{setting:.0e}"),
+                            "configuration": self.configuration, "status": "ok", "setting": format!("rtol {setting:.0e}"),
                             "error": error, "deviation": unit.deviation(&values), "median_us": time(&mut call, quick),
                         });
                     }

@@ -11,8 +11,6 @@ pub struct Unit {
     parameters: Value,
     /// Section coordinates of the gait, SI units.
     pub start: Vec<f64>,
-    /// Duration of a step (s), for codes that need a guess.
-    pub duration: f64,
     /// Image, then Jacobian row by row, to 15 digits.
     reference: Vec<f64>,
     /// Largest error that is allowed.
@@ -24,7 +22,6 @@ impl Unit {
     pub fn read(file: &str, key: &str) -> Result<Self, Failure> {
         let all: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
         let unit = all.get(key).ok_or_else(|| format!("{file}: no unit `{key}`"))?;
-        let number = |name: &str| unit[name].as_f64().ok_or_else(|| format!("{file}: no `{name}` in unit `{key}`"));
         let list = |name: &str| -> Vec<f64> {
             unit[name].as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
         };
@@ -32,9 +29,8 @@ impl Unit {
             key: key.to_owned(),
             parameters: unit["parameters"].clone(),
             start: list("start"),
-            duration: number("duration")?,
             reference: list("reference"),
-            wanted: number("wanted")?,
+            wanted: unit["wanted"].as_f64().ok_or_else(|| format!("{file}: no `wanted` in unit `{key}`"))?,
         })
     }
 
