@@ -65,7 +65,7 @@ TOLERANCES = tuple(factor * 10.0**-power for power in range(4, 15) for factor in
 """Relative tolerances, the loosest first; absolute ones (SI units) are a tenth of them."""
 
 
-def measure(attempt: Attempt | Unable, unit: Unit, quick: bool, budget: float = 100.0) -> dict[str, Any]:
+def measure(attempt: Attempt | Unable, unit: Unit, quick: bool, budget: float = 180.0) -> dict[str, Any]:
     """One row of the table; `budget` (s) bounds the search for the setting."""
     row: dict[str, Any] = {"configuration": attempt.configuration}
     if isinstance(attempt, Unable):

@@ -54,8 +54,8 @@ def table(rows: Sequence[Row], versions: Mapping[str, str], loads: Sequence[floa
         parts.append("")
     named = ", ".join(f"{name} {version}" for name, version in sorted(versions.items()))
     parts.append(f"Versions: {named}.\n")
-    parts.append(f"Machine: {machine()}; between {min(loads):.1f} and {max(loads):.1f} while measuring.")
-    return "\n".join(parts) + "\n"
+    parts.append(f"Machine: {machine()}; between {min(loads, default=0.0):.1f} and {max(loads, default=0.0):.1f} while measuring.")
+    return "\n".join(parts)
 
 
 def line(row: Row) -> str:
