@@ -101,16 +101,19 @@ def power(number: float, digits: int) -> str:
 
 
 def microseconds(call: Call, quick: bool) -> float:
-    """Minimum over repeats of the median time of a unit (us): other load on the computer only ever adds."""
+    """Minimum over repeats of the median time of a unit (us): other load on the computer only ever adds.
+
+    Processor time, of all threads together: long units would count the waiting for a busy core.
+    """
     repeats, seconds = (2, 0.02) if quick else (8, 0.25)
 
     def once(count: int) -> float:
-        begun = time.perf_counter()
+        begun = time.process_time()
         call.repeat(count)
-        return (time.perf_counter() - begun) / count
+        return (time.process_time() - begun) / count
 
     # As many calls a sample as take about 50 us.
-    count = max(1, min(10_000, round(50e-6 / min(once(1), once(3)))))
+    count = max(1, min(10_000, round(50e-6 / max(1e-9, min(once(1), once(3))))))
     medians = []
     for _ in range(repeats):
         samples, begun = [], time.perf_counter()

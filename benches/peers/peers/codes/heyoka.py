@@ -10,7 +10,7 @@ import heyoka as hy
 import numpy as np
 
 from peers import equations
-from peers.measure import Attempt, Call, Unable
+from peers.measure import Attempt, Call, Unable, power
 from peers.units import Unit
 
 VERSIONS = ("heyoka",)
@@ -26,7 +26,7 @@ Expressions = list[tuple[Any, Any]]
 def attempts(unit: Unit) -> list[Attempt | Unable]:
     """One unit at a time, and a batch."""
     if unit.key == "c":
-        how = f"over the crank angle, {FLOOR:g} kg m^2 added to the mass that vanishes"
+        how = f"over the crank angle, {power(FLOOR, 0)} kg m^2 added to the mass that vanishes"
         return [
             Attempt(f"Taylor, {how}", lambda tol: Crank(unit, tol, 1), TOLERANCES, "tol"),
             Attempt(f"Taylor, {how}, {LANES} at a time", lambda tol: Crank(unit, tol, LANES), TOLERANCES, "tol"),
