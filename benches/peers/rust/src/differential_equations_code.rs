@@ -22,7 +22,7 @@ const FLOOR: f64 = 1e-12;
 pub fn attempts(unit: &Unit) -> Result<Vec<Attempt>, Failure> {
     let start = unit.start.clone();
     let attempt = |configuration: &str, build| {
-        Ok(vec![Attempt { configuration: configuration.to_owned(), settings: tolerances(), build }])
+        Ok(vec![Attempt { configuration: configuration.to_owned(), settings: tolerances(), units: 1, build }])
     };
     match &unit.key[..] {
         "a" => {
@@ -53,6 +53,7 @@ pub fn attempts(unit: &Unit) -> Result<Vec<Attempt>, Failure> {
             let attempts = methods.into_iter().map(|(name, work)| Attempt {
                 configuration: format!("{name}, over the crank angle, analytic Jacobian"),
                 settings: tolerances(),
+                units: 1,
                 build: Box::new(move |tolerance| Box::new(move || work(crank, tolerance, begin))),
             });
             Ok(attempts.collect())

@@ -33,7 +33,7 @@ pub fn attempts(unit: &Unit) -> Result<Vec<Attempt>, Failure> {
             )
         }
     };
-    Ok(vec![Attempt { configuration: configuration.to_owned(), settings: tolerances(), build }])
+    Ok(vec![Attempt { configuration: configuration.to_owned(), settings: tolerances(), units: 1, build }])
 }
 
 /// A call that only says why it cannot.
