@@ -10,9 +10,9 @@ use gaitc_runtime::scalar::Scalar;
 /// d, T. The closed form knows the first passage only, which is at t = 1 or 2.
 pub struct Polynomial;
 
-/// A zero near `t`, which is exact but for variations: one step of Newton's method gives it theirs.
+/// A zero near `t`, which is exact but for variations: steps of Newton's method give it theirs, each one order more.
 pub fn varied<S: Scalar>(t: f64, f: impl Fn(S) -> S, slope: impl Fn(S) -> S) -> S {
-    c::<S>(t) - f(c(t)) / slope(c(t))
+    (0..2).fold(c(t), |t, _| t - f(t) / slope(t))
 }
 
 impl System for Polynomial {
