@@ -100,9 +100,12 @@ fn search(machine: &Machine, start: &[f64], accuracy: Accuracy, segments: usize)
 /// The largest difference relative to the largest number.
 fn error(a: &[f64], b: &[f64]) -> f64 {
     let scale = b.iter().map(|b| b.abs()).fold(0.0, f64::max);
-    let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |worst, x: f64| {
-        if x > worst || x.is_nan() { x } else { worst }
-    });
+    let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(
+        0.0,
+        |worst, x: f64| {
+            if x > worst || x.is_nan() { x } else { worst }
+        },
+    );
     if worst == 0.0 { 0.0 } else { worst / scale }
 }
 
@@ -140,11 +143,8 @@ fn routes() {
             println!("| {name} | no coordinates |||||| ");
             continue;
         }
-        let other = if at.explicit() {
-            accuracy(TIGHT, Method::Radau5)
-        } else {
-            accuracy(TIGHT_OF_LOW_ORDER, Method::Radau3)
-        };
+        let other =
+            if at.explicit() { accuracy(TIGHT, Method::Radau5) } else { accuracy(TIGHT_OF_LOW_ORDER, Method::Radau3) };
         let implicit = at.again(other, 1).expect("single shooting");
         let same_place = at.run(at.z(), &at.machine.parameters, other);
         let exact = at.run(at.z(), &at.machine.parameters, accuracy(TIGHT, Method::Automatic));
@@ -254,8 +254,8 @@ fn tolerances() {
     let references = [tightest(&length), tightest(&angle), collocated];
     for exponent in 6..=14 {
         let tolerance = 0.1_f64.powi(exponent);
-        let runs =
-            [&length, &angle, &crank].map(|at| at.run(at.z(), &at.machine.parameters, accuracy(tolerance, Method::Automatic)));
+        let runs = [&length, &angle, &crank]
+            .map(|at| at.run(at.z(), &at.machine.parameters, accuracy(tolerance, Method::Automatic)));
         let steps = |i: usize| runs[i].statistics.steps;
         let off = |i: usize| match error(&numbers(&runs[i]), &references[i]) {
             0.0 => "reference".to_owned(),
@@ -289,8 +289,7 @@ fn cranks() {
         let exact = method.gait(&crank).expect("a gait");
         let at = At::new(Machine::new("self_exciting", &[("G", gear)]));
         let map = at.run(exact.coordinates.as_slice(), &at.machine.parameters, accuracy(TIGHT, Method::Automatic));
-        let expected =
-            [exact.map.image.as_slice(), exact.map.jacobian.as_slice(), &[exact.map.step.duration]].concat();
+        let expected = [exact.map.image.as_slice(), exact.map.jacobian.as_slice(), &[exact.map.step.duration]].concat();
         println!(
             "| {gear} | {} | {} | {} | {:.1} |",
             map.statistics.steps,

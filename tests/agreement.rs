@@ -354,11 +354,7 @@ fn compare(at: &At, names: &[&str], got: (&[f64], &DMatrix<f64>), expected: Seco
     for (i, &row) in directions.iter().enumerate() {
         assert_abs_diff_eq!(first[row], expected.value.derivative[i], epsilon = 1e-12 * largest);
         for (j, &column) in directions.iter().enumerate() {
-            assert_abs_diff_eq!(
-                second[(row, column)],
-                expected.derivative[i].derivative[j],
-                epsilon = 1e-12 * largest
-            );
+            assert_abs_diff_eq!(second[(row, column)], expected.derivative[i].derivative[j], epsilon = 1e-12 * largest);
         }
     }
 }
@@ -390,8 +386,7 @@ fn second_derivatives_of_the_ball_are_the_closed_form() {
 fn second_derivatives_of_the_wheel_are_the_closed_form() {
     for (lambda, alpha, gamma) in [(0.9, 15.0, 5.0), (1.0, 15.0, 3.0), (0.6, 22.5, 9.0), (1.0, 30.0, 16.0)] {
         let (alpha, gamma) = (f64::to_radians(alpha), f64::to_radians(gamma));
-        let at =
-            At::gait_of(Machine::new("rimless_wheel", &[("lambda", lambda), ("alpha", alpha), ("gamma", gamma)]));
+        let at = At::gait_of(Machine::new("rimless_wheel", &[("lambda", lambda), ("alpha", alpha), ("gamma", gamma)]));
         let second = at.second(&at.plan().unwrap());
         let values = [at.z[0], lambda, alpha, gamma, at.machine.value("g"), at.machine.value("l")];
         let mut direction = 0;

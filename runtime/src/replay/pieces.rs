@@ -45,7 +45,7 @@ impl Plan {
         for i in 0..count {
             let last = i + 1 == count;
             let legs = cutter.take(if last { f64::INFINITY } else { total / count as f64 });
-            let plan = Plan { info: self.info, accuracy: self.accuracy, turns: vec![legs] };
+            let plan = Plan { info: self.info, accuracy: self.accuracy, turns: vec![legs], trial: false };
             pieces.push(Piece { plan, from_section: i == 0, to_section: last });
         }
         pieces

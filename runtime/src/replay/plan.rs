@@ -17,6 +17,8 @@ pub struct Plan {
     pub(crate) accuracy: Accuracy,
     /// For each map that is composed, its legs.
     pub(crate) turns: Vec<Vec<Leg>>,
+    /// Whether it is on trial: its mesh is not that of the run, so that replays have to see whether surfaces are resolved on it.
+    pub(crate) trial: bool,
 }
 
 /// From one event to the next.

@@ -89,6 +89,6 @@ impl Record {
     /// The plan, if there is one.
     pub(crate) fn plan(self, info: &'static ModelInfo, accuracy: Accuracy) -> Option<Plan> {
         let whole = self.turns.iter().flatten().all(|leg| !leg.end.surfaces.is_empty());
-        (!self.unfit && whole).then_some(Plan { info, accuracy, turns: self.turns })
+        (!self.unfit && whole).then_some(Plan { info, accuracy, turns: self.turns, trial: false })
     }
 }
