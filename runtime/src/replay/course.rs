@@ -154,13 +154,20 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         for (step, size) in sizes.iter().enumerate() {
             let h = self.scale.times(*size);
             let (end, rates) = self.step(h);
+            self.check_error(h, &end);
             if S::ORDER == 0 {
-                let tolerance =
-                    Tolerance { relative: self.plan.accuracy.relative, absolute: self.plan.accuracy.absolute };
-                self.valid = S::and(self.valid, within(h, &self.at, &end, &self.stages, tolerance));
                 self.watch(leg, step, h, (&end.x, &rates.x));
             }
             (self.at, self.rates, self.tau) = (end, rates, self.tau + h);
+        }
+    }
+
+    /// Declines lanes in which the error of the last step, of size `h` to `end`, is not within the tolerance.
+    pub(crate) fn check_error(&mut self, h: S, end: &Moving<S, N, C>) {
+        if S::ORDER == 0 {
+            let accuracy = &self.plan.accuracy;
+            let tolerance = Tolerance { relative: accuracy.relative, absolute: accuracy.absolute };
+            self.valid = S::and(self.valid, within(h, &self.at, end, &self.stages, tolerance));
         }
     }
 

@@ -111,6 +111,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             let near = delta.0.abs().less_equal(h.abs().times(short).plus_times(8.0 * f64::EPSILON, tau));
             if attempt == ATTEMPTS || S::all(S::or(near, S::not(self.valid))) {
                 self.valid = S::and(self.valid, near);
+                self.check_error(h, &end);
                 return self.reach(surface, tau, (end, rates), delta);
             }
             attempt += 1;
@@ -156,7 +157,8 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     /// Declines lanes in which the event is not the plan's: grazing, not enabled, other surfaces elsewhere.
     fn check_end(&mut self, leg: &Leg, landed: &Landed<S, N, P, C>) {
         let rate = dot(&landed.guard.dx, &landed.before) + landed.guard.dtau + landed.guard.dt;
-        let mut ok = S::constant(GRAZING * leg.end.fastest).less(rate.abs());
+        let away = rate.times(-leg.end.from.sign());
+        let mut ok = S::constant(GRAZING * leg.end.fastest).less(away);
         if let Some(&Surface::Transition(i)) = leg.end.surfaces.first() {
             let margin = M::when(i, &landed.at.x, &self.segment.env(landed.tau));
             ok = S::and(ok, S::constant(0.0).less_equal(margin));

@@ -108,7 +108,8 @@ impl Cutter<'_> {
             let (before, after) = (s.at.get(self.step), s.at.get(self.step + 1));
             let known = self.done == 0.0 || before == after;
             let here = if known { before.copied().unwrap_or(Side::Unknown) } else { Side::Unknown };
-            Sides { surface: s.surface, at: vec![here], clock_only: s.clock_only }
+            let noise = if self.step == 0 && self.done == 0.0 { s.noise } else { 0.0 };
+            Sides { at: vec![here], noise, ..s.clone() }
         };
         Leg {
             tau: leg.tau + gone + self.done,

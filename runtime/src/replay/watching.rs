@@ -16,6 +16,8 @@ use crate::sensitivity::dot;
 
 /// Between its ends the cubic may come closer to zero than the closer end, by this factor.
 const NEAR: f64 = 0.25;
+/// A surface that is zero to rounding may be off by this many times what it was off in the plan.
+const NOISE: f64 = 8.0;
 
 impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize>
     Course<'_, M, S, N, P, Q, C>
@@ -29,10 +31,13 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         for sides in &leg.watched {
             let g = self.segment.gradient::<M, N, Q>(sides.surface, &self.at.x, self.tau);
             let sign = sides.at.first().map_or(0.0, |side| side.sign());
+            let (zero, noise) = (S::constant(0.0), S::constant(NOISE * sides.noise));
             let rounding = self.rounding(&g, &self.at.x, self.tau);
-            let on_side = S::constant(0.0).less_equal(g.value.times(sign) + rounding);
-            self.valid = S::and(self.valid, on_side);
-            self.readings.push((g.value, dot(&g.dx, &self.rates.x) + g.dtau + g.dt));
+            let rounding = S::select(rounding.less(noise), noise, rounding);
+            self.valid = S::and(self.valid, zero.less_equal(g.value.times(sign) + rounding));
+            // On the other side by rounding is on the surface.
+            let value = S::select(g.value.times(sign).less(zero), zero, g.value);
+            self.readings.push((value, dot(&g.dx, &self.rates.x) + g.dtau + g.dt));
         }
     }
 
@@ -56,8 +61,10 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             }
             let sign = after.sign();
             self.valid = S::and(self.valid, S::constant(0.0).less(end.0.times(sign)));
-            if before == after && !sides.clock_only {
-                self.valid = S::and(self.valid, keeps_away(sign, h, start, end));
+            if !sides.clock_only {
+                let as_planned =
+                    if before == after { keeps_away(sign, h, start, end) } else { passes_once(sign, h, start, end) };
+                self.valid = S::and(self.valid, as_planned);
             }
             self.resolve(sides, h, (start, end), inside.as_ref());
         }
@@ -75,15 +82,25 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             };
             let mut sides_at = sides.at.iter().rev();
             let (after, before) = (sides_at.next(), sides_at.next());
-            if after != before || sides.clock_only {
+            let (Some(&after), Some(&before)) = (after, before) else {
+                continue;
+            };
+            if sides.clock_only || after == Side::Unknown {
                 continue;
             }
-            let mut end = self.read(sides, (&landed.at.x, &landed.before), landed.tau);
+            let (mut end, mut from) = (self.read(sides, (&landed.at.x, &landed.before), landed.tau), after);
             if leg.end.surfaces.contains(&sides.surface) {
                 end.0 = S::constant(0.0);
             }
-            let sign = after.map_or(0.0, |side| side.sign());
-            self.valid = S::and(self.valid, keeps_away(sign, h, start, end));
+            if leg.end.surfaces.first() == Some(&sides.surface) {
+                from = leg.end.from;
+            }
+            let as_planned = if before == from {
+                keeps_away(from.sign(), h, start, end)
+            } else {
+                passes_once(from.sign(), h, start, end)
+            };
+            self.valid = S::and(self.valid, as_planned);
             self.resolve(sides, h, (start, end), inside.as_ref());
         }
     }
@@ -167,6 +184,17 @@ fn keeps_away<S: Number>(sign: f64, h: S, start: (S, S), end: (S, S)) -> S::Mask
     S::and(of_half(left), of_half(right))
 }
 
+/// Whether the cubic, which is on the side `sign` at its end or comes to zero from there, and on the other at its start, passes
+/// zero only once: its control points change sign only once.
+fn passes_once<S: Number>(sign: f64, h: S, start: (S, S), end: (S, S)) -> S::Mask {
+    let (third, zero) = (h.times(sign / 3.0), S::constant(0.0));
+    let first = third.mul_add(start.1, start.0.times(sign));
+    let second = end.0.times(sign) - third * end.1;
+    let back_and_forth = S::and(zero.less(first), second.less(zero));
+    let known = S::and(first.less_equal(first), second.less_equal(second));
+    S::and(known, S::not(back_and_forth))
+}
+
 /// The control points of both halves of a cubic, by de Casteljau's construction.
 fn halves<S: Number>([a, b, c, d]: [S; 4]) -> ([S; 4], [S; 4]) {
     let mean = |a: S, b: S| (a + b).times(0.5);
@@ -178,7 +206,7 @@ fn halves<S: Number>([a, b, c, d]: [S; 4]) -> ([S; 4], [S; 4]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{cubic, keeps_away};
+    use super::{cubic, keeps_away, passes_once};
 
     /// Whether a parabola around `low`, wherever its lowest point is, is seen to come down to it.
     #[test]
@@ -203,6 +231,16 @@ mod tests {
         assert!(keeps_away(1.0, 1.0, (1.0, -0.5), (0.0, -1.0)));
         assert!(!keeps_away(1.0, 1.0, (1.0, -9.0), (0.0, -3.0)));
         assert!(!keeps_away(1.0, 1.0, (1.0, f64::NAN), (1.0, 0.0)));
+    }
+
+    #[test]
+    fn one_passage_is_told_from_three() {
+        assert!(passes_once(1.0, 1.0, (-1.0, 2.0), (1.0, 2.0)));
+        assert!(passes_once(-1.0, 1.0, (1.0, -2.0), (-1.0, -2.0)));
+        assert!(!passes_once(1.0, 1.0, (-1.0, 12.0), (1.0, 12.0)));
+        // Up, and down to the event.
+        assert!(passes_once(1.0, 1.0, (-1.0, 9.0), (0.0, -3.0)));
+        assert!(!passes_once(1.0, 1.0, (-1.0, f64::NAN), (1.0, 0.0)));
     }
 
     #[test]

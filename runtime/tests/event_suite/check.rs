@@ -76,7 +76,7 @@ impl Row {
         Self { times, derivatives, implicit, ..self }
     }
 
-    /// Without a plan, or perhaps without: guards pass zero and do not fire.
+    /// Without a plan, or perhaps without: guards pass zero and do not fire, or almost touch it.
     pub fn planless(self) -> Self {
         Self { planless: true, ..self }
     }

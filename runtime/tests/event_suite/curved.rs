@@ -195,7 +195,7 @@ fn circles() {
         Row::new("lens", Of::Lens, [-2.0, 0.3, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]).planless(),
         Row::new("lens from afar", Of::Lens, [-50.0, 0.3, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 90.0]).planless(),
         Row::new("lens near its rim", Of::Lens, [-2.0, 0.999, 0.0], [1.0, 0.0, 0.1, 0.0, 0.0, 5.0]).planless(),
-        Row::new("lens, passed by", Of::Lens, [-2.0, 1.001, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]),
+        Row::new("lens, passed by", Of::Lens, [-2.0, 1.001, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]).planless(),
     ]);
 }
 

@@ -11,7 +11,7 @@ const DIRECTIONS: usize = 9;
 /// How far the points of a batch are from the row's own, relative to max(0.1, |value|). The first is its own.
 const AWAY: [f64; 9] = [0.0, 1e-9, -1e-6, 1e-4, -1e-3, 0.01, -0.05, 0.2, -0.5];
 /// By how much a replay that held may be off the run, relative to what each may be off the solution.
-const SAME: f64 = 10.0;
+const SAME: f64 = 30.0;
 /// A second derivative may be off by more than a first one, by this factor: that of 1/sqrt(d) is as sensitive to d as its
 /// power -3/2, three times as much.
 const SECOND: f64 = 3.0;
