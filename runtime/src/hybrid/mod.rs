@@ -26,7 +26,7 @@ use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::{Coordinates, Reached};
 use nalgebra::{DMatrix, DVector};
-pub(crate) use resolution::PLACES;
+pub(crate) use resolution::{FAR, MISFIT, PLACES};
 use run::Run;
 
 /// The largest numbers of columns in one pass. Each width is compiled for each model, so there are few.

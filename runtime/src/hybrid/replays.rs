@@ -24,7 +24,7 @@ pub(super) fn plan<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: u
         match explicit::<M, N, P, Q>(request, section, columns) {
             Ok((result, plan)) => {
                 let plan = plan.filter(|_| result.warnings.is_empty());
-                let plan = plan.map(|plan| spread::<M, N, P, Q>(plan, request));
+                let plan = plan.and_then(|plan| spread::<M, N, P, Q>(plan, request));
                 return Ok((MapOutcome::Completed(Box::new(result)), plan));
             }
             Err(failure) if !failure.stiff => return Ok((MapOutcome::Stopped(failure.stop), None)),
@@ -37,21 +37,22 @@ pub(super) fn plan<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: u
 /// Maps near the one of a plan are to hold, too: its own has to be so much more exact.
 const MARGIN: f64 = 0.5;
 
-/// The same plan with fewer steps, where that is exact enough.
+/// The same plan with fewer steps, where that is exact enough; none where it does not hold as it is.
 fn spread<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     plan: Plan,
     request: &MapRequest<'_>,
-) -> Plan {
+) -> Option<Plan> {
     let points = Points { coordinates: request.coordinates, parameters: request.parameters };
     let mut images = Images::default();
-    let holds = |trial: &Plan, images: &mut Images| {
-        let mut strict = trial.clone();
+    let mut holds =
+        |plan: &Plan| replay::<M, N, P, Q>(plan, points, &mut images).is_ok() && images.held.iter().all(|held| *held);
+    let found = plan.spread().find(|spread| {
+        let mut strict = Plan { trial: true, ..spread.clone() };
         strict.accuracy.relative *= MARGIN;
         strict.accuracy.absolute *= MARGIN;
-        replay::<M, N, P, Q>(&strict, points, images).is_ok() && images.held.iter().all(|held| *held)
-    };
-    let found = plan.spread().find(|trial| holds(trial, &mut images));
-    found.unwrap_or(plan)
+        holds(&strict)
+    });
+    found.or_else(|| Some(plan).filter(|plan| holds(plan)))
 }
 
 /// Replays a plan at all points.

@@ -13,9 +13,9 @@ use crate::model::Model;
 /// Places inside a step, as fractions of it; uneven, so that a periodic function does not hide behind them.
 pub(crate) const PLACES: [f64; 4] = [0.13, 0.37, 0.61, 0.87];
 /// Largest distance from the cubic, relative to the range of the values seen in the step.
-const MISFIT: f64 = 0.1;
+pub(crate) const MISFIT: f64 = 0.1;
 /// A function that stays this many ranges away from zero needs no closer look: it has no event nearby.
-const FAR: f64 = 2.0;
+pub(crate) const FAR: f64 = 2.0;
 
 impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
     Run<'_, X, M, R, N, P, Q, W, C>

@@ -77,7 +77,11 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
             self.embed(&coordinates);
             self.tau = S::constant(0.0);
             self.leave(turn);
+            let start = self.segment.start;
             self.go(turn);
+            let limit = self.plan.accuracy.time_limit * (1.0 + 4.0 * f64::EPSILON);
+            let in_time = (self.segment.start - start).less_equal(S::constant(limit));
+            self.valid = S::and(self.valid, in_time);
             coordinates = self.project();
         }
         coordinates
@@ -139,6 +143,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         self.segment.set_branch(&leg.branch);
         self.rates = self.segment.rates::<M, N, Q>(self.tau, &self.at);
         self.scale = self.scale(leg);
+        self.valid = S::and(self.valid, S::constant(0.0).less(self.scale));
         self.read_start(leg);
     }
 
@@ -149,13 +154,20 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         for (step, size) in sizes.iter().enumerate() {
             let h = self.scale.times(*size);
             let (end, rates) = self.step(h);
+            self.check_error(h, &end);
             if const { S::ORDER == 0 } {
-                let tolerance =
-                    Tolerance { relative: self.plan.accuracy.relative, absolute: self.plan.accuracy.absolute };
-                self.valid = S::and(self.valid, within(h, &self.at, &end, &self.stages, tolerance));
+                self.watch(leg, step, h, (&end.x, &rates.x));
             }
             (self.at, self.rates, self.tau) = (end, rates, self.tau + h);
-            self.watch(leg, step, h);
+        }
+    }
+
+    /// Declines lanes in which the error of the last step, of size `h` to `end`, is not within the tolerance.
+    pub(crate) fn check_error(&mut self, h: S, end: &Moving<S, N, C>) {
+        if const { S::ORDER == 0 } {
+            let accuracy = &self.plan.accuracy;
+            let tolerance = Tolerance { relative: accuracy.relative, absolute: accuracy.absolute };
+            self.valid = S::and(self.valid, within(h, &self.at, end, &self.stages, tolerance));
         }
     }
 

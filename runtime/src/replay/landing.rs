@@ -88,7 +88,10 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             return;
         };
         let landed = self.locate(leg, surface);
-        self.check_end(leg, &landed);
+        if const { S::ORDER == 0 } {
+            self.check_end(leg, &landed);
+            self.watch_last(leg, &landed);
+        }
         match surface {
             Surface::Transition(i) => self.pass_transition(i, &landed),
             Surface::Switch(_) => self.pass_switches(&leg.end, next, &landed),
@@ -108,6 +111,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             let near = delta.0.abs().less_equal(h.abs().times(short).plus_times(8.0 * f64::EPSILON, tau));
             if attempt == ATTEMPTS || S::all(S::or(near, S::not(self.valid))) {
                 self.valid = S::and(self.valid, near);
+                self.check_error(h, &end);
                 return reach(tau, (end, rates), delta);
             }
             attempt += 1;
@@ -133,15 +137,12 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
 
     /// Declines lanes in which the event is not the plan's: grazing, not enabled, other surfaces elsewhere.
     fn check_end(&mut self, leg: &Leg, landed: &Landed<S, N, C>) {
-        // What is not compiled for numbers with derivatives: their values were checked in plain ones before.
-        if const { S::ORDER > 0 } {
-            return;
-        }
         let Some(&first) = leg.end.surfaces.first() else {
             return;
         };
         let rate = self.segment.slope::<M, N, Q>(first, &landed.at.x, landed.tau, &landed.before);
-        let mut ok = S::constant(GRAZING * leg.end.fastest).less(rate.abs());
+        let away = rate.times(-leg.end.from.sign());
+        let mut ok = S::constant(GRAZING * leg.end.fastest).less(away);
         if let Surface::Transition(i) = first {
             let margin = M::when(i, &landed.at.x, &self.segment.env(landed.tau));
             ok = S::and(ok, S::constant(0.0).less_equal(margin));
@@ -153,7 +154,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             }
             let g = self.gradient(sides.surface, &landed.at.x, landed.tau);
             let holds = if surfaces.contains(&sides.surface) {
-                g.value.abs().less_equal(self.size(&g, landed).times(ROUNDING))
+                g.value.abs().less_equal(self.rounding(&g, &landed.at.x, landed.tau))
             } else {
                 let sign = sides.at.last().map_or(0.0, |side| side.sign());
                 S::constant(0.0).less(g.value.times(sign))
@@ -163,16 +164,16 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         self.valid = S::and(self.valid, ok);
     }
 
-    /// The size of the terms that a function is made of.
-    fn size(&self, g: &Gradient<S, N, P>, landed: &Landed<S, N, C>) -> S {
-        let mut size = (g.dtau * landed.tau).abs() + (g.dt * (self.segment.start + landed.tau)).abs();
+    /// Below this a function is zero to rounding: some units of the terms that it is made of.
+    pub(crate) fn rounding(&self, g: &Gradient<S, N, P>, x: &[S; N], tau: S) -> S {
+        let mut size = (g.dtau * tau).abs() + (g.dt * (self.segment.start + tau)).abs();
         for i in 0..N {
-            size = size + (g.dx[i] * landed.at.x[i]).abs();
+            size = size + (g.dx[i] * x[i]).abs();
         }
         for i in 0..P {
             size = size + (g.dp[i] * self.segment.p[i]).abs();
         }
-        size
+        size.times(ROUNDING)
     }
 
     fn pass_transition(&mut self, i: usize, landed: &Landed<S, N, C>) {
@@ -212,8 +213,8 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         };
         let (tau, mut before) = (landed.tau, landed.before);
         (self.at, self.tau) = (landed.at, tau);
-        if const { C == 0 } {
-            return;
+        if const { S::ORDER > 0 } {
+            return self.pass_one_by_one(end, next);
         }
         let zero = S::constant(0.0);
         for surface in &end.surfaces {
@@ -230,6 +231,24 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
                 self.at.dx[c] = crossing.pass(&self.at.dx[c], &[zero; P], self.segment.dstart[c], dtau);
             }
             before = after;
+        }
+    }
+
+    /// The same in numbers with derivatives. The times of the switches are equal, their variations are not: each is reached along
+    /// the flow that the ones before it leave.
+    fn pass_one_by_one(&mut self, end: &End, next: &Leg) {
+        for (k, surface) in end.surfaces.iter().enumerate() {
+            if k > 0 {
+                let f = M::flow(self.segment.mode, &self.at.x, &self.segment.env(self.tau));
+                let (delta, bend) = self.rest(*surface, self.tau, &self.at.x, &f);
+                self.at.x = taylor(&self.at.x, &f, &bend, delta);
+                self.tau = self.tau + delta;
+            }
+            if let Surface::Switch(i) = *surface
+                && let (Some(slot), Some(selector)) = (self.segment.branch.get_mut(i), next.branch.get(i))
+            {
+                *slot = S::mask(*selector);
+            }
         }
     }
 }

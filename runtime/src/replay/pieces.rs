@@ -45,7 +45,7 @@ impl Plan {
         for i in 0..count {
             let last = i + 1 == count;
             let legs = cutter.take(if last { f64::INFINITY } else { total / count as f64 });
-            let plan = Plan { info: self.info, accuracy: self.accuracy, turns: vec![legs] };
+            let plan = Plan { info: self.info, accuracy: self.accuracy, turns: vec![legs], trial: false };
             pieces.push(Piece { plan, from_section: i == 0, to_section: last });
         }
         pieces
@@ -108,7 +108,8 @@ impl Cutter<'_> {
             let (before, after) = (s.at.get(self.step), s.at.get(self.step + 1));
             let known = self.done == 0.0 || before == after;
             let here = if known { before.copied().unwrap_or(Side::Unknown) } else { Side::Unknown };
-            Sides { surface: s.surface, at: vec![here], clock_only: s.clock_only }
+            let noise = if self.step == 0 && self.done == 0.0 { s.noise } else { 0.0 };
+            Sides { at: vec![here], noise, ..s.clone() }
         };
         Leg {
             tau: leg.tau + gone + self.done,

@@ -17,6 +17,8 @@ pub struct Plan {
     pub(crate) accuracy: Accuracy,
     /// For each map that is composed, its legs.
     pub(crate) turns: Vec<Vec<Leg>>,
+    /// Whether it is on trial: its mesh is not that of the run, so that replays have to see whether surfaces are resolved on it.
+    pub(crate) trial: bool,
 }
 
 /// From one event to the next.
@@ -49,6 +51,9 @@ pub(crate) struct Sides {
     pub(crate) at: Vec<Side>,
     /// Whether its function depends on time and parameters only.
     pub(crate) clock_only: bool,
+    /// Below this its value at the start was zero to rounding. A surface that has just been passed is off zero by what was
+    /// rounded on the whole way to it.
+    pub(crate) noise: f64,
 }
 
 /// How a leg ends.
@@ -59,6 +64,9 @@ pub(crate) struct End {
     pub(crate) surfaces: Vec<Surface>,
     /// Whether the time of the first follows from the parameters alone.
     pub(crate) clock_only: bool,
+    /// The side from which the first is passed. That where the last step starts may be the other one: a passage the other way,
+    /// which does not count, comes in between.
+    pub(crate) from: Side,
     /// Largest magnitude of the first one's rate in the leg.
     pub(crate) fastest: f64,
 }

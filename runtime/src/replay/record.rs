@@ -21,8 +21,13 @@ impl Record {
 
     /// A leg begins, in this mode with this memory and these selectors.
     pub(crate) fn leg(&mut self, mode: usize, tau: f64, memory: &[f64], branch: &[bool], watched: &[Watched]) {
-        let sides = |w: &Watched| Sides { surface: w.surface, at: vec![w.side], clock_only: w.start.clock_only };
-        let end = End { surfaces: Vec::new(), clock_only: false, fastest: 0.0 };
+        let sides = |w: &Watched| Sides {
+            surface: w.surface,
+            at: vec![w.side],
+            clock_only: w.start.clock_only,
+            noise: w.start.rounding,
+        };
+        let end = End { surfaces: Vec::new(), clock_only: false, from: Side::Unknown, fastest: 0.0 };
         let leg = Leg {
             mode,
             tau,
@@ -63,7 +68,12 @@ impl Record {
         let first = passed.first().and_then(|i| leg.watched.get(*i).zip(watched.get(*i)));
         match first {
             Some((sides, w)) if transitions <= 1 => {
-                leg.end = End { surfaces, clock_only: sides.clock_only, fastest: w.fastest };
+                let from = match w.direction {
+                    Direction::Falling => Side::Positive,
+                    Direction::Rising => Side::Negative,
+                    Direction::Either => w.side,
+                };
+                leg.end = End { surfaces, clock_only: sides.clock_only, from, fastest: w.fastest };
             }
             _ => self.unfit = true,
         }
@@ -89,6 +99,6 @@ impl Record {
     /// The plan, if there is one.
     pub(crate) fn plan(self, info: &'static ModelInfo, accuracy: Accuracy) -> Option<Plan> {
         let whole = self.turns.iter().flatten().all(|leg| !leg.end.surfaces.is_empty());
-        (!self.unfit && whole).then_some(Plan { info, accuracy, turns: self.turns })
+        (!self.unfit && whole).then_some(Plan { info, accuracy, turns: self.turns, trial: false })
     }
 }

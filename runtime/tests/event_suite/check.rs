@@ -2,6 +2,7 @@
 
 use crate::common::auto::Auto;
 use crate::family::{Exact, Family, Of, exact};
+use crate::replays::replayed;
 use gaitc_runtime::hybrid::Hybrid;
 use gaitc_runtime::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Method, ReturnMap, Sensitivity, StopReason, Warning,
@@ -24,15 +25,24 @@ pub enum Warned {
 #[derive(Clone, Debug)]
 pub struct Row {
     name: String,
-    of: Of,
-    start: [f64; 3],
-    p: [f64; 6],
+    /// The system.
+    pub of: Of,
+    /// Its start.
+    pub start: [f64; 3],
+    /// Its parameters.
+    pub p: [f64; 6],
     warned: Vec<Warned>,
     stops: Option<(StopReason, f64, f64)>,
     accuracy: Accuracy,
-    times: f64,
-    derivatives: f64,
+    /// Tolerance of times and states.
+    pub times: f64,
+    /// Tolerance of derivatives.
+    pub derivatives: f64,
     implicit: f64,
+    /// Whether it need not have a plan.
+    planless: bool,
+    /// Whether it has first derivatives only.
+    pub once: bool,
 }
 
 impl Row {
@@ -41,7 +51,9 @@ impl Row {
     pub fn new(name: &str, of: Of, start: [f64; 3], p: [f64; 6]) -> Self {
         let accuracy = Accuracy { relative: 1e-13, absolute: 1e-14, method: Method::Explicit, ..Accuracy::default() };
         let (warned, name) = (Vec::new(), name.to_owned());
-        Self { name, of, start, p, warned, stops: None, accuracy, times: 1e-12, derivatives: 1e-11, implicit: 1e-9 }
+        let (times, derivatives, implicit) = (1e-12, 1e-11, 1e-9);
+        let (planless, once) = (false, false);
+        Self { name, of, start, p, warned, stops: None, accuracy, times, derivatives, implicit, planless, once }
     }
 
     /// With these warnings.
@@ -64,6 +76,16 @@ impl Row {
         Self { times, derivatives, implicit, ..self }
     }
 
+    /// Without a plan, or perhaps without: guards pass zero and do not fire, or almost touch it.
+    pub fn planless(self) -> Self {
+        Self { planless: true, ..self }
+    }
+
+    /// With first derivatives only.
+    pub fn once(self) -> Self {
+        Self { once: true, ..self }
+    }
+
     /// Only by this method.
     pub fn method(self, method: Method) -> Self {
         Self { accuracy: Accuracy { method, ..self.accuracy }, ..self }
@@ -71,11 +93,16 @@ impl Row {
 
     /// Evaluates the map of this row.
     pub fn run(&self, method: Method, sensitivity: Sensitivity<'_>) -> MapOutcome {
+        self.ask(method, sensitivity, |request| FAMILY.evaluate(request)).unwrap()
+    }
+
+    /// What `answer` makes of the request that evaluates the map of this row.
+    pub fn ask<R>(&self, method: Method, sensitivity: Sensitivity<'_>, answer: impl FnOnce(&MapRequest<'_>) -> R) -> R {
         let accuracy = Accuracy { method, ..self.accuracy };
         // The implicit method's order makes tolerances below this a waste.
         let loose = Accuracy { relative: 1e-12, absolute: 1e-13, ..accuracy };
         let memory = [self.of as usize as f64, 0.0];
-        let request = MapRequest {
+        answer(&MapRequest {
             coordinates: &self.start,
             parameters: &self.p,
             memory: &memory,
@@ -83,8 +110,7 @@ impl Row {
             sensitivity,
             measures: false,
             accuracy: if method == Method::Explicit { accuracy } else { loose },
-        };
-        FAMILY.evaluate(&request).unwrap()
+        })
     }
 }
 
@@ -99,6 +125,10 @@ pub fn check(rows: &[Row]) {
             one(row, Method::Explicit, ALL, tolerance, &mut wrong);
             one(row, Method::Explicit, Sensitivity::Coordinates, tolerance, &mut wrong);
             one(row, Method::Radau5, ALL, (row.implicit, row.implicit), &mut wrong);
+            let planned = replayed(row, &mut |what| wrong.push(format!("{} [replay]: {what}", row.name)));
+            if !planned && row.stops.is_none() && row.warned.is_empty() && !row.planless {
+                wrong.push(format!("{} has no plan", row.name));
+            }
         } else {
             one(row, row.accuracy.method, ALL, (row.times, row.derivatives), &mut wrong);
         }

@@ -192,10 +192,10 @@ fn circles() {
         Row::new("billiard, five bounces", Of::Billiard, [0.2, 0.1, 0.4], [1.0, 0.0, 0.0, 0.0, 0.0, 9.0]),
         // Whispering: each bounce multiplies what the state is off by.
         Row::new("billiard, flat bounces", Of::Billiard, [0.0, -0.9, 0.1], [1.0, 0.0, 0.0, 0.0, 0.0, 3.0]),
-        Row::new("lens", Of::Lens, [-2.0, 0.3, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]),
-        Row::new("lens from afar", Of::Lens, [-50.0, 0.3, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 90.0]),
-        Row::new("lens near its rim", Of::Lens, [-2.0, 0.999, 0.0], [1.0, 0.0, 0.1, 0.0, 0.0, 5.0]),
-        Row::new("lens, passed by", Of::Lens, [-2.0, 1.001, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]),
+        Row::new("lens", Of::Lens, [-2.0, 0.3, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]).planless(),
+        Row::new("lens from afar", Of::Lens, [-50.0, 0.3, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 90.0]).planless(),
+        Row::new("lens near its rim", Of::Lens, [-2.0, 0.999, 0.0], [1.0, 0.0, 0.1, 0.0, 0.0, 5.0]).planless(),
+        Row::new("lens, passed by", Of::Lens, [-2.0, 1.001, 0.0], [1.0, -0.2, 0.1, 0.0, 0.0, 5.0]).planless(),
     ]);
 }
 

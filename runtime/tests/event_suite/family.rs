@@ -7,7 +7,7 @@ use crate::common::auto::{Equations, c};
 use crate::common::climbers::{BLANK, quantity};
 use core::any::Any;
 use gaitc_runtime::model::{Direction, Env, ModeInfo, ModelInfo, TransitionInfo};
-use gaitc_runtime::scalar::Scalar;
+use gaitc_runtime::scalar::{Lanes, Real, Scalar};
 use gaitc_runtime::sensitivity::Dual;
 
 /// The section's transition, falling.
@@ -75,17 +75,44 @@ pub fn count<S: Scalar>(e: &E<'_, S>) -> S {
     e.memory[1]
 }
 
-/// The value of a number, whatever is carried with it.
+/// The value of a number, whatever is carried with it; of lanes, the first.
 pub fn number<S: Scalar>(v: S) -> f64 {
-    let any: &dyn Any = &v;
-    if let Some(v) = any.downcast_ref::<f64>() {
-        *v
-    } else if let Some(v) = any.downcast_ref::<Dual<f64>>() {
-        v.value
-    } else if let Some(v) = any.downcast_ref::<Dual<Dual<f64>>>() {
-        v.value.value
-    } else {
-        f64::NAN
+    macro_rules! first_of {
+        ($($kind:ty),+) => {
+            $(if let Some(v) = (&v as &dyn Any).downcast_ref::<$kind>() {
+                return v.value();
+            })+
+        };
+    }
+    first_of!(f64, Dual, Dual<Dual>, Lanes, Dual<Lanes>, Carried, Dual<Carried>, Second);
+    f64::NAN
+}
+
+/// What second derivatives are carried with by replays.
+type Carried = Dual<Dual<f64, 4>, 2>;
+/// All second derivatives by the three states of the start and the six parameters.
+pub type Second = Dual<Dual<f64, 9>, 9>;
+
+/// Numbers that have a value.
+trait Valued {
+    fn value(&self) -> f64;
+}
+
+impl Valued for f64 {
+    fn value(&self) -> f64 {
+        *self
+    }
+}
+
+impl Valued for Lanes {
+    fn value(&self) -> f64 {
+        self.lane(0)
+    }
+}
+
+impl<S: Valued, const K: usize> Valued for Dual<S, K> {
+    fn value(&self) -> f64 {
+        self.value.value()
     }
 }
 

@@ -22,6 +22,7 @@
 //! | sliding, chattering, a relay with hysteresis, Zeno (ball, closing walls) | `piling` |
 //! | very long and very short flights | `flights` |
 //! | stiff flows, the end of the domain, blow-up, the time limit before, at and after an event | `limits` |
+//! | plans, replays in one number and in lanes, second derivatives, for every row that has a plan | `replays` |
 //! | a section before its transition | `before`, with the falling ball of the other tests |
 
 #![allow(unreachable_pub)] // modules of a test
@@ -41,6 +42,7 @@ mod grazing;
 mod limits;
 mod piling;
 mod products;
+mod replays;
 mod resets;
 mod starts;
 mod sweeps;

@@ -10,9 +10,9 @@ use gaitc_runtime::scalar::Scalar;
 /// d, T. The closed form knows the first passage only, which is at t = 1 or 2.
 pub struct Polynomial;
 
-/// A zero near `t`, which is exact but for variations: one step of Newton's method gives it theirs.
+/// A zero near `t`, which is exact but for variations: steps of Newton's method give it theirs, each one order more.
 pub fn varied<S: Scalar>(t: f64, f: impl Fn(S) -> S, slope: impl Fn(S) -> S) -> S {
-    c::<S>(t) - f(c(t)) / slope(c(t))
+    (0..2).fold(c(t), |t, _| t - f(t) / slope(t))
 }
 
 impl System for Polynomial {
@@ -106,8 +106,8 @@ fn guards_that_are_zero_at_the_start() {
         row("down with zero slope, either at 1", EITHER, [0.0, -2.0, 3.0]),
         row("up with zero slope and curvature, falling", FALL, [0.0, 0.0, 1.0]),
         row("down with zero slope and curvature, rising", RISE, [0.0, 0.0, -1.0]),
-        row("stays zero", FALL, [0.0; 3]),
-        row("stays zero, either", EITHER, [0.0; 3]),
+        row("stays zero", FALL, [0.0; 3]).planless(),
+        row("stays zero, either", EITHER, [0.0; 3]).planless(),
         row("down with zero slope, falling", FALL, [0.0, -2.0, 3.0]).stops(StopReason::Zeno, 0.0, 0.0),
         row("up with zero slope, rising", RISE, [0.0, 2.0, -3.0]).stops(StopReason::Zeno, 0.0, 0.0),
         row("down with zero slope and curvature, falling", FALL, [0.0, 0.0, -1.0]).stops(StopReason::Zeno, 0.0, 0.0),

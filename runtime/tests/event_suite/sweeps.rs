@@ -25,7 +25,8 @@ fn cubics() {
         let kind = KINDS[k % 3] as f64;
         rows.push(Row::new(&format!("cubic {k}"), Of::Cubic, [0.0, 0.2, 1.0], [a, b, c, kind, 0.0, 3.2]));
         if clear {
-            rows.push(Row::new(&format!("gated {k}"), Of::GatedCubic, [0.0, 0.2, 1.0], [a, b, c, gate, 0.0, 3.2]));
+            let row = Row::new(&format!("gated {k}"), Of::GatedCubic, [0.0, 0.2, 1.0], [a, b, c, gate, 0.0, 3.2]);
+            rows.push(if gate < a { row } else { row.planless() });
         }
     }
     check(&rows);
@@ -63,7 +64,7 @@ fn rays() {
         let from = [spread(k, 0, -30.0, -1.5), spread(k, 1, -0.9, 0.9), 0.0];
         // Long enough to leave the circle.
         if p[5] + from[0] > 1.5 {
-            rows.push(Row::new(&format!("lens {k}"), Of::Lens, from, p));
+            rows.push(Row::new(&format!("lens {k}"), Of::Lens, from, p).planless());
         }
         let inside = [spread(k, 0, -0.5, 0.5), spread(k, 1, -0.5, 0.5), spread(k, 2, 0.0, 6.0)];
         rows.push(Row::new(

@@ -185,7 +185,8 @@ fn kinks() {
     check(&[
         Row::new("guard with a kink", Of::Kink, [1.0, 0.2, 0.3], [0.4, 0.0, 0.0, 0.0, 0.0, 2.0]),
         Row::new("guard with a kink nearby", Of::Kink, [1.0, 0.2, 0.3], [1e-6, 0.0, 0.0, 0.0, 0.0, 2.0]),
-        Row::new("guard zero at its kink", Of::Kink, [1.0, 0.2, 0.3], [0.0, 0.0, 0.0, 0.0, 0.0, 2.0]),
+        // Guard and switch part where a is not 0: what y then gains between them is of second order.
+        Row::new("guard zero at its kink", Of::Kink, [1.0, 0.2, 0.3], [0.0, 0.0, 0.0, 0.0, 0.0, 2.0]).once(),
     ]);
 }
 
