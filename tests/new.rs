@@ -129,7 +129,7 @@ fn a_new_project_builds_from_packaged_crates_and_prints_its_gait() {
     // Nothing is written beside the sources.
     let mut there: Vec<_> = fs::read_dir(&project).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     there.sort();
-    assert_eq!(there, [".gitignore", "Cargo.lock", "Cargo.toml", "README.md", "build.rs", "specs", "src"]);
+    assert_eq!(there, [".cargo", ".gitignore", "Cargo.lock", "Cargo.toml", "README.md", "build.rs", "specs", "src"]);
     let clean = cargo(&project, &["clean", "-p", "it_s_my_hopper", "--target-dir"]).arg(target()).output().unwrap();
     succeeded(&clean);
 }
@@ -149,8 +149,18 @@ fn below(folder: &Path) -> Vec<String> {
     paths
 }
 
-const FILES: [&str; 8] =
-    [".gitignore", "Cargo.toml", "README.md", "build.rs", "specs", "specs/hopper.toml", "src", "src/main.rs"];
+const FILES: [&str; 10] = [
+    ".cargo",
+    ".cargo/config.toml",
+    ".gitignore",
+    "Cargo.toml",
+    "README.md",
+    "build.rs",
+    "specs",
+    "specs/hopper.toml",
+    "src",
+    "src/main.rs",
+];
 
 #[test]
 fn a_project_is_made_where_nothing_or_an_empty_folder_is() {
@@ -273,7 +283,7 @@ fn the_page_shows_the_files() {
     let page = fs::read_to_string(Path::new(REPOSITORY).join("docs/own_project.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     succeeded(&gaitc_in(folder.path(), &["new", "hopper"]));
-    for file in ["Cargo.toml", "build.rs", "specs/hopper.toml", "src/main.rs"] {
+    for file in ["Cargo.toml", ".cargo/config.toml", "build.rs", "specs/hopper.toml", "src/main.rs"] {
         let text = fs::read_to_string(folder.path().join("hopper").join(file)).unwrap();
         // Where the crates lie is another matter on every machine.
         let text = text.split("\n# The sources that gaitc").next().unwrap();

@@ -16,6 +16,7 @@ use std::path::Path;
 /// The endings keep cargo and rustfmt from taking the templates for files of this package.
 const TEMPLATE: &[(&str, &str)] = &[
     ("Cargo.toml", include_str!("template/Cargo.toml.in")),
+    (".cargo/config.toml", include_str!("template/config.toml.in")),
     ("build.rs", include_str!("template/build.rs.in")),
     ("specs/{name}.toml", include_str!("template/model.toml.in")),
     ("src/main.rs", include_str!("template/main.rs.in")),
