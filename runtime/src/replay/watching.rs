@@ -9,7 +9,7 @@ use super::course::Course;
 use super::landing::Landed;
 use super::number::Number;
 use super::plan::{Leg, Sides};
-use crate::event::{Side, Surface};
+use crate::event::Side;
 use crate::hybrid::{FAR, MISFIT, PLACES};
 use crate::model::Model;
 use crate::sensitivity::dot;
@@ -109,17 +109,10 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     fn read(&self, sides: &Sides, (x, rates): (&[S; N], &[S; N]), tau: S) -> (S, S) {
         let segment = &self.segment;
         if sides.clock_only {
-            return (self.value(sides.surface, x, tau), S::constant(0.0));
+            return (self.segment.value::<M, N, Q>(sides.surface, x, tau), S::constant(0.0));
         }
         let g = segment.gradient::<M, N, Q>(sides.surface, x, tau);
         (g.value, dot(&g.dx, rates) + g.dtau + g.dt)
-    }
-
-    fn value(&self, surface: Surface, x: &[S; N], tau: S) -> S {
-        match surface {
-            Surface::Transition(i) => M::guard(i, x, &self.segment.env(tau)),
-            Surface::Switch(i) => M::switch(i, x, &self.segment.env(tau)),
-        }
     }
 
     /// States at [`PLACES`] of the step of size `h`, each by a step of its own.
@@ -135,7 +128,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         };
         let tau = self.tau;
         let values: [S; PLACES.len()] =
-            core::array::from_fn(|i| self.value(sides.surface, &inside[i], tau + h.times(PLACES[i])));
+            core::array::from_fn(|i| self.segment.value::<M, N, Q>(sides.surface, &inside[i], tau + h.times(PLACES[i])));
         let ((v0, d0), (v1, d1)) = ends;
         let (mut low, mut high) = (smaller(v0, v1), smaller(-v0, -v1));
         for value in values {
