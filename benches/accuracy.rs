@@ -71,9 +71,14 @@ impl At {
     }
 
     fn run(&self, z: &[f64], p: &[f64], accuracy: Accuracy) -> MapResult {
+        self.try_run(z, p, accuracy).expect("a step")
+    }
+
+    /// `None` where there is no next step.
+    fn try_run(&self, z: &[f64], p: &[f64], accuracy: Accuracy) -> Option<MapResult> {
         match self.ask(z, p, accuracy, |request| self.machine.model.compiled.evaluate(request).unwrap()) {
-            MapOutcome::Completed(map) => *map,
-            MapOutcome::Stopped(stop) => panic!("{stop:?}"),
+            MapOutcome::Completed(map) => Some(*map),
+            MapOutcome::Stopped(_) => None,
         }
     }
 
@@ -140,7 +145,7 @@ fn routes() {
         let name = entry.compiled.info().name;
         let at = At::new(Machine::new(name, &[]));
         if at.z().is_empty() {
-            println!("| {name} | no coordinates |||||| ");
+            println!("| {name} | no coordinates | | | | | |");
             continue;
         }
         let other =
@@ -209,19 +214,19 @@ fn second_derivatives(at: &At) -> Option<f64> {
         let at_offset = |offset: f64| {
             let (mut z, mut p) = (at.z().to_vec(), p.clone());
             *if j < d { &mut z[j] } else { &mut p[j - d] } += offset;
-            stacked(&at.run(&z, &p, tight))
+            at.try_run(&z, &p, tight).map(|map| stacked(&map))
         };
         let mut second = exact.second[j].columns(0, d).clone_owned().insert_row(d, 0.0);
         second.set_row(d, &exact.duration_second.row(j).columns(0, d));
-        let of_step = |step: &f64| {
+        let of_step = |step: &f64| -> Option<f64> {
             let h = step * value;
             let mut slope = DMatrix::zeros(d + 1, d);
             for (k, weight) in (1..=4).zip(WEIGHTS) {
-                slope += (at_offset(h * f64::from(k)) - at_offset(-h * f64::from(k))) * (weight / h);
+                slope += (at_offset(h * f64::from(k))? - at_offset(-h * f64::from(k))?) * (weight / h);
             }
-            (&slope - &second).amax() / slope.amax().max(1.0 / value)
+            Some((&slope - &second).amax() / slope.amax().max(1.0 / value))
         };
-        let best = STEPS.iter().map(of_step).fold(f64::INFINITY, f64::min);
+        let best = STEPS.iter().filter_map(of_step).fold(f64::INFINITY, f64::min);
         worst = f64::max(worst, best);
     }
     Some(worst)

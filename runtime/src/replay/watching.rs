@@ -28,15 +28,21 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         if const { S::ORDER > 0 } {
             return;
         }
+        let last = !leg.end.surfaces.is_empty() && leg.sizes.len() == 1;
         for sides in &leg.watched {
             let g = self.segment.gradient::<M, N, Q>(sides.surface, &self.at.x, self.tau);
-            let sign = sides.at.first().map_or(0.0, |side| side.sign());
+            let decides = last && leg.end.surfaces.first() == Some(&sides.surface);
+            let after = if decides { leg.end.from } else { sides.at.get(1).copied().unwrap_or(Side::Unknown) };
+            let sign = after.sign();
             let (zero, noise) = (S::constant(0.0), S::constant(NOISE * sides.noise));
             let rounding = self.rounding(&g, &self.at.x, self.tau);
             let rounding = S::select(rounding.less(noise), noise, rounding);
-            self.valid = S::and(self.valid, zero.less_equal(g.value.times(sign) + rounding));
+            let on_side = zero.less_equal(g.value.times(sign) + rounding);
+            if counts::<M, N, P, Q>(sides.surface, after.opposite()) {
+                self.valid = S::and(self.valid, on_side);
+            }
             // On the other side by rounding is on the surface.
-            let value = S::select(g.value.times(sign).less(zero), zero, g.value);
+            let value = S::select(S::and(on_side, g.value.times(sign).less(zero)), zero, g.value);
             self.readings.push((value, dot(&g.dx, &self.rates.x) + g.dtau + g.dt));
         }
     }
@@ -46,9 +52,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     pub(crate) fn watch(&mut self, leg: &Leg, step: usize, h: S, to: (&[S; N], &[S; N])) {
         let inside = self.plan.trial.then(|| self.states_inside(h));
         for (i, sides) in leg.watched.iter().enumerate() {
-            let (Some(&before), Some(&after), Some(&start)) =
-                (sides.at.get(step), sides.at.get(step + 1), self.readings.get(i))
-            else {
+            let (Some(&after), Some(&start)) = (sides.at.get(step + 1), self.readings.get(i)) else {
                 self.valid = S::mask(false);
                 return;
             };
@@ -59,12 +63,9 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             if after == Side::Unknown {
                 continue;
             }
-            let sign = after.sign();
-            self.valid = S::and(self.valid, S::constant(0.0).less(end.0.times(sign)));
+            self.valid = S::and(self.valid, S::constant(0.0).less(end.0.times(after.sign())));
             if !sides.clock_only {
-                let as_planned =
-                    if before == after { keeps_away(sign, h, start, end) } else { passes_once(sign, h, start, end) };
-                self.valid = S::and(self.valid, as_planned);
+                self.valid = S::and(self.valid, no_event::<M, S, N, P, Q>(sides.surface, after, h, (start, end)));
             }
             self.resolve(sides, h, (start, end), inside.as_ref());
         }
@@ -80,27 +81,18 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
                 self.valid = S::mask(false);
                 return;
             };
-            let mut sides_at = sides.at.iter().rev();
-            let (after, before) = (sides_at.next(), sides_at.next());
-            let (Some(&after), Some(&before)) = (after, before) else {
-                continue;
-            };
-            if sides.clock_only || after == Side::Unknown {
+            let mut from = sides.at.last().copied().unwrap_or(Side::Unknown);
+            if sides.clock_only || from == Side::Unknown {
                 continue;
             }
-            let (mut end, mut from) = (self.read(sides, (&landed.at.x, &landed.before), landed.tau), after);
+            let mut end = self.read(sides, (&landed.at.x, &landed.before), landed.tau);
             if leg.end.surfaces.contains(&sides.surface) {
                 end.0 = S::constant(0.0);
             }
             if leg.end.surfaces.first() == Some(&sides.surface) {
                 from = leg.end.from;
             }
-            let as_planned = if before == from {
-                keeps_away(from.sign(), h, start, end)
-            } else {
-                passes_once(from.sign(), h, start, end)
-            };
-            self.valid = S::and(self.valid, as_planned);
+            self.valid = S::and(self.valid, no_event::<M, S, N, P, Q>(sides.surface, from, h, (start, end)));
             self.resolve(sides, h, (start, end), inside.as_ref());
         }
     }
@@ -144,6 +136,32 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         let far = range.times(FAR).less(nearest);
         self.valid = S::and(self.valid, S::or(resolved, far));
     }
+}
+
+/// Whether a passage of a surface that leaves `side` counts.
+fn counts<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(surface: Surface, side: Side) -> bool {
+    match surface {
+        Surface::Transition(i) => M::INFO.transitions.get(i).is_none_or(|t| side.leaves(t.direction)),
+        Surface::Switch(_) => true,
+    }
+}
+
+/// Whether a surface that is on the side `after` at the end of a step of size `h`, or comes to zero from there, makes no passage
+/// in it that counts: it has been there all the time, or came there once from the other side, if that does not count.
+fn no_event<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usize>(
+    surface: Surface,
+    after: Side,
+    h: S,
+    (start, end): ((S, S), (S, S)),
+) -> S::Mask {
+    let sign = after.sign();
+    let stays = keeps_away(sign, h, start, end);
+    if counts::<M, N, P, Q>(surface, after.opposite()) {
+        return stays;
+    }
+    let there = S::constant(0.0).less_equal(start.0.times(sign));
+    let comes = S::and(S::not(there), passes_once(sign, h, start, end));
+    S::or(S::and(there, stays), comes)
 }
 
 fn smaller<S: Number>(a: S, b: S) -> S {
