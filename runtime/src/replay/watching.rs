@@ -9,7 +9,7 @@ use super::course::Course;
 use super::landing::Landed;
 use super::number::Number;
 use super::plan::{Leg, Sides};
-use crate::event::Side;
+use crate::event::{Side, Surface};
 use crate::hybrid::{FAR, MISFIT, PLACES};
 use crate::model::Model;
 use crate::sensitivity::dot;
@@ -119,8 +119,9 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             return;
         };
         let tau = self.tau;
-        let values: [S; PLACES.len()] =
-            core::array::from_fn(|i| self.segment.value::<M, N, Q>(sides.surface, &inside[i], tau + h.times(PLACES[i])));
+        let values: [S; PLACES.len()] = core::array::from_fn(|i| {
+            self.segment.value::<M, N, Q>(sides.surface, &inside[i], tau + h.times(PLACES[i]))
+        });
         let ((v0, d0), (v1, d1)) = ends;
         let (mut low, mut high) = (smaller(v0, v1), smaller(-v0, -v1));
         for value in values {
