@@ -138,14 +138,14 @@ fn main() {
 
 fn routes() {
     println!(
-        "| model | implicit: multipliers | Jacobian | 5 segments: multipliers | Jacobian | known otherwise | second \
-         derivatives |\n|---|---|---|---|---|---|---|"
+        "| model | largest multiplier | implicit: multipliers | Jacobian | 5 segments: multipliers | Jacobian | known otherwise | second \
+         derivatives |\n|---|---|---|---|---|---|---|---|"
     );
     for entry in MODELS {
         let name = entry.compiled.info().name;
         let at = At::new(Machine::new(name, &[]));
         if at.z().is_empty() {
-            println!("| {name} | no coordinates | | | | | |");
+            println!("| {name} | no coordinates | | | | | | |");
             continue;
         }
         let other =
@@ -155,7 +155,8 @@ fn routes() {
         let exact = at.run(at.z(), &at.machine.parameters, accuracy(TIGHT, Method::Automatic));
         let segments = at.again(accuracy(TIGHT, Method::Automatic), 5);
         println!(
-            "| {name} | {} | {} | {} | {} | {} | {} |",
+            "| {name} | {:.2e} | {} | {} | {} | {} | {} | {} |",
+            at.gait.spectral_radius,
             digits(multipliers(&implicit.multipliers, &at.gait.multipliers)),
             digits(error(same_place.jacobian.as_slice(), exact.jacobian.as_slice())),
             or_none(segments.as_ref().map(|s| digits(multipliers(&s.multipliers, &at.gait.multipliers)))),
@@ -262,10 +263,7 @@ fn tolerances() {
         let runs = [&length, &angle, &crank]
             .map(|at| at.run(at.z(), &at.machine.parameters, accuracy(tolerance, Method::Automatic)));
         let steps = |i: usize| runs[i].statistics.steps;
-        let off = |i: usize| match error(&numbers(&runs[i]), &references[i]) {
-            0.0 => "reference".to_owned(),
-            error => format!("{error:.1e}"),
-        };
+        let off = |i: usize| format!("{:.1e}", error(&numbers(&runs[i]), &references[i]));
         let exact = {
             let value = |name: &str| length.machine.value(name);
             (2.0 * value("psi")).cos() * (value("l_b") + value("l_s")) / value("l_b")
