@@ -166,9 +166,8 @@ fn no_event<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const 
     if counts::<M, N, P, Q>(surface, after.opposite()) {
         return stays;
     }
-    let there = S::constant(0.0).less_equal(start.0.times(sign));
-    let comes = S::and(S::not(there), passes_once(sign, h, start, end));
-    S::or(S::and(there, stays), comes)
+    let elsewhere = start.0.times(sign).less_equal(S::constant(0.0));
+    S::or(stays, S::and(elsewhere, passes_once(sign, h, start, end)))
 }
 
 fn smaller<S: Number>(a: S, b: S) -> S {
