@@ -25,7 +25,7 @@ use nalgebra::{Complex, DMatrix};
 /// The tightest useful relative tolerance.
 const TIGHT: f64 = 1e-14;
 /// That of Radau's method with 3 stages, which takes very many steps beyond.
-const TIGHT_OF_LOW_ORDER: f64 = 1e-12;
+const TIGHT_OF_LOW_ORDER: f64 = 1e-13;
 /// Steps of differences, relative to the variable: truncation and rounding are in balance somewhere between.
 const STEPS: [f64; 6] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
 /// A variable below this counts as this large.
