@@ -3,7 +3,7 @@
 use super::{Columns, Hybrid, explicit, request};
 use crate::model::{Model, ModelInfo, Section};
 use crate::replay::{
-    Images, Piece, PieceEnd, Plan, Points, SecondOrder, run_piece, second_order as along_pairs, side_by_side,
+    Checks, Images, Piece, PieceEnd, Plan, Points, SecondOrder, run_piece, second_order as along_pairs, side_by_side,
 };
 use crate::return_map::{MapOutcome, MapRequest, Method, RequestError, ReturnMap};
 use crate::scalar::{Lanes, Real};
@@ -47,7 +47,7 @@ fn spread<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     let mut holds =
         |plan: &Plan| replay::<M, N, P, Q>(plan, points, &mut images).is_ok() && images.held.iter().all(|held| *held);
     let found = plan.spread().find(|spread| {
-        let mut strict = Plan { trial: true, ..spread.clone() };
+        let mut strict = Plan { checks: Checks::Trial, ..spread.clone() };
         strict.accuracy.relative *= MARGIN;
         strict.accuracy.absolute *= MARGIN;
         holds(&strict)

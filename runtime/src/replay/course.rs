@@ -6,7 +6,7 @@
 
 use super::moving::{Moving, within};
 use super::number::Number;
-use super::plan::{Leg, Plan};
+use super::plan::{Checks, Leg, Plan};
 use super::segment::{ROOM, Segment};
 use crate::model::{Model, Section};
 use crate::ode::Tolerance;
@@ -167,7 +167,10 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         if const { S::ORDER == 0 } {
             let accuracy = &self.plan.accuracy;
             let tolerance = Tolerance { relative: accuracy.relative, absolute: accuracy.absolute };
-            self.valid = S::and(self.valid, within(h, &self.at, end, &self.stages, tolerance));
+            self.valid = S::and(
+                self.valid,
+                within(h, &self.at, end, &self.stages, tolerance, self.plan.checks != Checks::State),
+            );
         }
     }
 

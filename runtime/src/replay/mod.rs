@@ -23,6 +23,7 @@ mod watching;
 pub(crate) use batch::side_by_side;
 pub(crate) use pieces::run_piece;
 pub use pieces::{Piece, PieceEnd};
+pub(crate) use plan::Checks;
 pub use plan::Plan;
 pub use points::{Images, Points, SecondOrder};
 pub(crate) use record::Record;

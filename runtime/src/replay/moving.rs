@@ -47,7 +47,8 @@ impl<S: Number, const N: usize, const C: usize> OdeState for Moving<S, N, C> {
     }
 }
 
-/// Where the error of a step is within the tolerance: the same norm that accepts steps elsewhere.
+/// Where the error of a step, of the state and if wanted of all columns, is within the tolerance: the same norm that accepts
+/// steps elsewhere.
 #[inline(always)]
 pub(crate) fn within<S: Number, const N: usize, const C: usize>(
     h: S,
@@ -55,9 +56,10 @@ pub(crate) fn within<S: Number, const N: usize, const C: usize>(
     end: &Moving<S, N, C>,
     k: &Stages<Moving<S, N, C>>,
     tolerance: Tolerance,
+    columns: bool,
 ) -> S::Mask {
     let mut ok = block(h, &start.x, &end.x, &|s, i| k[s].x[i], tolerance);
-    for c in 0..C {
+    for c in 0..if columns { C } else { 0 } {
         ok = S::and(ok, block(h, &start.dx[c], &end.dx[c], &|s, i| k[s].dx[c][i], tolerance));
     }
     ok

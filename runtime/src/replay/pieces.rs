@@ -2,14 +2,10 @@
 //! section, to the next cut, or to the section.
 
 use super::course::Course;
-use super::plan::{Leg, Plan, Sides};
+use super::plan::{Checks, Leg, Plan, Sides};
 use crate::event::Side;
 use crate::model::{Model, Section};
-use crate::return_map::Accuracy;
 use nalgebra::{DMatrix, DVector};
-
-/// Pieces carry variations along all states, for which the mesh was not made: their errors may be so much larger.
-const OTHER_COLUMNS: f64 = 10.0;
 
 /// A piece of a plan of one map.
 #[derive(Clone, Debug)]
@@ -44,15 +40,12 @@ impl Plan {
         if count < 2 || total.is_nan() || total <= 0.0 {
             return whole();
         }
-        let Accuracy { relative, absolute, .. } = self.accuracy;
-        let accuracy =
-            Accuracy { relative: OTHER_COLUMNS * relative, absolute: OTHER_COLUMNS * absolute, ..self.accuracy };
         let mut cutter = Cutter { legs, leg: 0, step: 0, done: 0.0 };
         let mut pieces = Vec::with_capacity(count);
         for i in 0..count {
             let last = i + 1 == count;
             let legs = cutter.take(if last { f64::INFINITY } else { total / count as f64 });
-            let plan = Plan { info: self.info, accuracy, turns: vec![legs], trial: false };
+            let plan = Plan { info: self.info, accuracy: self.accuracy, turns: vec![legs], checks: Checks::State };
             pieces.push(Piece { plan, from_section: i == 0, to_section: last });
         }
         pieces

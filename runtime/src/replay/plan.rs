@@ -17,8 +17,20 @@ pub struct Plan {
     pub(crate) accuracy: Accuracy,
     /// For each map that is composed, its legs.
     pub(crate) turns: Vec<Vec<Leg>>,
-    /// Whether it is on trial: its mesh is not that of the run, so that replays have to see whether surfaces are resolved on it.
-    pub(crate) trial: bool,
+    /// What replays of it check.
+    pub(crate) checks: Checks,
+}
+
+/// What is checked besides the sides of surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Checks {
+    /// The errors of state and variations.
+    Errors,
+    /// The errors of the state. Pieces carry variations along all states, also those that vanish fast and for which no mesh was
+    /// made; in the product of the pieces nothing is left of these, and the others have the errors that they have in the whole.
+    State,
+    /// All errors, and whether surfaces are resolved: on a mesh that is not that of the run.
+    Trial,
 }
 
 /// From one event to the next.

@@ -1,6 +1,6 @@
 //! Records a run as a plan, while it goes on.
 
-use super::plan::{End, Leg, Plan, Sides};
+use super::plan::{Checks, End, Leg, Plan, Sides};
 use crate::event::{Side, Surface, Watched};
 use crate::model::{Direction, ModelInfo};
 use crate::return_map::Accuracy;
@@ -99,6 +99,6 @@ impl Record {
     /// The plan, if there is one.
     pub(crate) fn plan(self, info: &'static ModelInfo, accuracy: Accuracy) -> Option<Plan> {
         let whole = self.turns.iter().flatten().all(|leg| !leg.end.surfaces.is_empty());
-        (!self.unfit && whole).then_some(Plan { info, accuracy, turns: self.turns, trial: false })
+        (!self.unfit && whole).then_some(Plan { info, accuracy, turns: self.turns, checks: Checks::Errors })
     }
 }

@@ -8,7 +8,7 @@
 use super::course::Course;
 use super::landing::Landed;
 use super::number::Number;
-use super::plan::{Leg, Sides};
+use super::plan::{Checks, Leg, Sides};
 use crate::event::{Side, Surface};
 use crate::hybrid::{FAR, MISFIT, PLACES};
 use crate::model::Model;
@@ -50,7 +50,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     /// Declines lanes in which a watched surface does something else in step number `step`, which was taken to a state with
     /// its rates.
     pub(crate) fn watch(&mut self, leg: &Leg, step: usize, h: S, to: (&[S; N], &[S; N])) {
-        let inside = self.plan.trial.then(|| self.states_inside(h));
+        let inside = (self.plan.checks == Checks::Trial).then(|| self.states_inside(h));
         for (i, sides) in leg.watched.iter().enumerate() {
             let (Some(&after), Some(&start)) = (sides.at.get(step + 1), self.readings.get(i)) else {
                 self.valid = S::mask(false);
@@ -75,7 +75,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     /// others are at the end has been looked at.
     pub(crate) fn watch_last(&mut self, leg: &Leg, landed: &Landed<S, N, C>) {
         let h = landed.tau - self.tau;
-        let inside = self.plan.trial.then(|| self.states_inside(h));
+        let inside = (self.plan.checks == Checks::Trial).then(|| self.states_inside(h));
         for (i, sides) in leg.watched.iter().enumerate() {
             let Some(&start) = self.readings.get(i) else {
                 self.valid = S::mask(false);
@@ -160,9 +160,8 @@ fn no_event<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const 
     if counts::<M, N, P, Q>(surface, after.opposite()) {
         return stays;
     }
-    let there = S::constant(0.0).less_equal(start.0.times(sign));
-    let comes = S::and(S::not(there), passes_once(sign, h, start, end));
-    S::or(S::and(there, stays), comes)
+    let elsewhere = start.0.times(sign).less_equal(S::constant(0.0));
+    S::or(stays, S::and(elsewhere, passes_once(sign, h, start, end)))
 }
 
 fn smaller<S: Number>(a: S, b: S) -> S {

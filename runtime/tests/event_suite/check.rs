@@ -151,7 +151,7 @@ fn one(row: &Row, method: Method, sensitivity: Sensitivity<'_>, tolerance: (f64,
 }
 
 /// Written so that what is no number is not near.
-fn near(got: f64, expected: f64, scale: f64, tolerance: f64) -> bool {
+pub fn near(got: f64, expected: f64, scale: f64, tolerance: f64) -> bool {
     (got - expected).abs() <= tolerance * scale
 }
 

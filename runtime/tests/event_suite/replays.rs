@@ -1,7 +1,7 @@
 //! Plans of the suite's rows: their second derivatives against those of the closed form, and replays of them, in one number and
 //! in lanes, near and far from where the plan was made, against runs with error control.
 
-use crate::check::{FAMILY, Row};
+use crate::check::{FAMILY, Row, near};
 use crate::family::{Exact, Second, exact};
 use gaitc_runtime::return_map::{Images, MapOutcome, Method, Plan, Points, ReturnMap, SecondOrder, Sensitivity};
 use gaitc_runtime::sensitivity::Dual;
@@ -47,12 +47,12 @@ fn second_derivatives(row: &Row, plan: &Plan, say: &mut impl FnMut(String)) {
     for (i, value) in all {
         for j in 0..DIRECTIONS {
             let (got, exact) = (entry(&found, i, j, None), value.derivative[j].value);
-            if !((got - exact).abs() <= row.derivatives * first) {
+            if !near(got, exact, first, row.derivatives) {
                 say(format!("first derivative ({i}, {j}) is {got}, expected {exact}, off by {:e}", got - exact));
             }
             for k in 0..DIRECTIONS {
                 let (got, exact) = (entry(&found, i, j, Some(k)), value.derivative[j].derivative[k]);
-                if !((got - exact).abs() <= SECOND * row.derivatives * second) {
+                if !near(got, exact, second, SECOND * row.derivatives) {
                     say(format!(
                         "second derivative ({i}, {j}, {k}) is {got}, expected {exact}, off by {:e}, largest {second:e}",
                         got - exact
@@ -154,7 +154,7 @@ fn against_run(row: &Row, image: &Images, say: &mut impl FnMut(String)) {
             row.derivatives * derivatives
         };
         for (i, (a, b)) in replay.iter().zip(run).enumerate() {
-            if !((a - b).abs() <= SAME * within) {
+            if !near(*a, *b, within, SAME) {
                 say(format!("held, but {what} {i} is {a}, and {b} in the run, off by {:e}", a - b));
             }
         }
