@@ -64,7 +64,8 @@ pub(super) fn sin_cos<R: Register>(angle: R) -> (R, R) {
     let magnitude = angle.abs();
     if FUSED && magnitude.within(FRAC_PI_4) {
         // No right angle to take away: the same numbers sooner, and legs of machines seldom lean further.
-        return kernel(angle);
+        let (sine, cosine) = kernel(magnitude);
+        return R::turned(angle, R::constant(ROUNDING), sine, cosine);
     }
     if !FUSED || !magnitude.within(LARGEST) {
         return angle.by_library();

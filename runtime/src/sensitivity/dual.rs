@@ -58,6 +58,7 @@ impl<S: Scalar, const K: usize> Sub for Dual<S, K> {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
 impl<S: Scalar, const K: usize> Mul for Dual<S, K> {
     type Output = Self;
     #[inline]
@@ -66,6 +67,7 @@ impl<S: Scalar, const K: usize> Mul for Dual<S, K> {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "the quotient rule multiplies and subtracts")]
 impl<S: Scalar, const K: usize> Div for Dual<S, K> {
     type Output = Self;
     #[inline]
