@@ -179,7 +179,7 @@ fn a_project_is_made_where_nothing_or_an_empty_folder_is() {
     let output = gaitc_in(folder.path(), &["new", "4 Hoppers!", "--json"]);
     let value: serde_json::Value = serde_json::from_str(&succeeded(&output).0).unwrap();
     assert_eq!(value["model"], "hoppers");
-    assert_eq!(value["files"].as_array().unwrap().len(), 6);
+    assert_eq!(value["files"].as_array().unwrap().len(), 7);
     // This program's own sources are known to it.
     let manifest = fs::read_to_string(at("4 Hoppers!/Cargo.toml")).unwrap();
     let path = toml::from_str::<toml::Table>(&manifest).unwrap()["patch"]["crates-io"]["gaitc-runtime"]["path"].clone();

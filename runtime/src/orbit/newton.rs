@@ -5,7 +5,6 @@
 //! itself serve as new starts.
 
 use super::multipliers::{multipliers, spectral_radius};
-use super::shooting::{Shot, shoot};
 use crate::model::ModelInfo;
 use crate::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Open, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
@@ -99,8 +98,6 @@ const OTHER_STEPS: f64 = 1e3;
 const COLLAPSED: f64 = 1e-5;
 /// A point that returns to itself within this part of its size is a gait, whatever its step's length.
 const FIXED: f64 = 1e-6;
-/// How many plans multiple shooting makes before it gives up.
-const PLANS: usize = 5;
 /// How often a Newton step is halved.
 const HALVINGS: usize = 20;
 /// How many iterates of the map serve as further starts.
@@ -158,10 +155,10 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
 
 /// A point of the section with the map evaluated there.
 #[derive(Clone, Debug)]
-struct Point {
+pub(super) struct Point {
     z: DVector<f64>,
     map: MapResult,
-    residual: f64,
+    pub(super) residual: f64,
 }
 
 impl Point {
@@ -171,9 +168,9 @@ impl Point {
     }
 }
 
-struct Search<'a> {
-    map: &'a dyn ReturnMap,
-    request: &'a GaitRequest<'a>,
+pub(super) struct Search<'a> {
+    pub(super) map: &'a dyn ReturnMap,
+    pub(super) request: &'a GaitRequest<'a>,
 }
 
 impl Search<'_> {
@@ -181,7 +178,12 @@ impl Search<'_> {
         self.map.evaluate(&self.map_request(z, sensitivity, measures))
     }
 
-    fn map_request<'z>(&'z self, z: &'z [f64], sensitivity: Sensitivity<'z>, measures: bool) -> MapRequest<'z> {
+    pub(super) fn map_request<'z>(
+        &'z self,
+        z: &'z [f64],
+        sensitivity: Sensitivity<'z>,
+        measures: bool,
+    ) -> MapRequest<'z> {
         MapRequest {
             coordinates: z,
             parameters: self.request.parameters,
@@ -193,7 +195,7 @@ impl Search<'_> {
         }
     }
 
-    fn evaluate(&self, z: &[f64]) -> Result<Result<Point, Stop>, RequestError> {
+    pub(super) fn evaluate(&self, z: &[f64]) -> Result<Result<Point, Stop>, RequestError> {
         Ok(match self.run(z, Sensitivity::Coordinates, false)? {
             MapOutcome::Stopped(stop) => Err(stop),
             MapOutcome::Completed(map) => {
@@ -202,50 +204,6 @@ impl Search<'_> {
                 Ok(Point { z, map: *map, residual })
             }
         })
-    }
-
-    /// Multiple shooting. A plan that no longer holds is made anew where the search stands.
-    fn multiple(&self, guess: &[f64]) -> Result<GaitOutcome, RequestError> {
-        let (mut z, mut iterations) = (guess.to_vec(), 0);
-        let mut best: Option<Shot> = None;
-        for _ in 0..PLANS {
-            let (outcome, plan) = self.map.plan(&self.map_request(&z, Sensitivity::Coordinates, false))?;
-            if let (MapOutcome::Stopped(stop), None) = (outcome, &best) {
-                return self.finish(None, Some(stop), iterations);
-            }
-            let Some(plan) = plan.filter(|_| self.request.period == 1) else {
-                break;
-            };
-            let pieces = plan.pieces(self.request.segments);
-            let limits = (self.request.tolerance, self.request.iteration_limit);
-            let Some(shot) = shoot(self.map, self.request.parameters, &pieces, &z, limits)? else {
-                break;
-            };
-            iterations += shot.iterations;
-            z = shot.z.as_slice().to_vec();
-            let done = shot.residual <= self.request.tolerance;
-            best = Some(shot);
-            if done {
-                break;
-            }
-        }
-        let Some(shot) = best else {
-            return Err(RequestError::NoPlan(self.map.info().name));
-        };
-        let point = self.evaluate(shot.z.as_slice())?;
-        let mut outcome = match point {
-            Ok(mut point) => {
-                point.residual = point.residual.max(shot.residual);
-                self.finish(Some(point), None, iterations)?
-            }
-            Err(stop) => return self.finish(None, Some(stop), iterations),
-        };
-        if let Some(gait) = &mut outcome.gait {
-            gait.multipliers = multipliers(&shot.jacobian);
-            gait.spectral_radius = spectral_radius(&gait.multipliers);
-            gait.map.jacobian = shot.jacobian;
-        }
-        Ok(outcome)
     }
 
     /// Newton with line search as long as the residual falls.
@@ -298,7 +256,12 @@ impl Search<'_> {
         Ok(Some(z))
     }
 
-    fn finish(&self, best: Option<Point>, stop: Option<Stop>, iterations: usize) -> Result<GaitOutcome, RequestError> {
+    pub(super) fn finish(
+        &self,
+        best: Option<Point>,
+        stop: Option<Stop>,
+        iterations: usize,
+    ) -> Result<GaitOutcome, RequestError> {
         let mut residual = best.as_ref().map_or(f64::INFINITY, |b| b.residual);
         let gait = match best {
             Some(point) => Some(self.gait(point)?),

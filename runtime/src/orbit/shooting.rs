@@ -14,8 +14,8 @@
 use crate::return_map::{Piece, PieceEnd, RequestError, ReturnMap};
 use nalgebra::{DMatrix, DVector};
 
-/// How often a step is halved.
-const HALVINGS: usize = 12;
+/// How often a step is halved. Where a plan does not hold further on, a new one from where the search stands does.
+const HALVINGS: usize = 5;
 
 /// A solution, as far as it was found.
 pub(super) struct Shot {

@@ -29,6 +29,14 @@ pub struct PieceEnd {
 }
 
 impl Plan {
+    /// The same plan for a search on its way, whose numbers need not be exact yet: errors may be larger by `factor`.
+    #[must_use]
+    pub fn relaxed(mut self, factor: f64) -> Self {
+        self.accuracy.relative *= factor;
+        self.accuracy.absolute *= factor;
+        self
+    }
+
     /// The plan of one map in `count` pieces of about the same duration. A plan of several maps in a row, or one without
     /// duration, stays whole.
     pub fn pieces(&self, count: usize) -> Vec<Piece> {
@@ -70,7 +78,11 @@ impl Cutter<'_> {
             while let Some(&size) = leg.sizes.get(self.step) {
                 let rest = size - self.done;
                 let (sides, error) = (self.step + 1, leg.errors.get(self.step).copied().unwrap_or(0.0));
-                if length < rest {
+                // A cut keeps away from the event that ends the leg: elsewhere that comes sooner.
+                let to_event = self.step + 1 == leg.sizes.len() && !leg.end.surfaces.is_empty();
+                let latest = if to_event { 0.5 * size - self.done } else { rest };
+                if length < rest && latest > 0.0 {
+                    let length = length.min(latest);
                     part.sizes.push(length);
                     part.errors.push(error);
                     // What is true in the middle of a step is known only of what does not change in it.
@@ -92,7 +104,7 @@ impl Cutter<'_> {
                 for (to, from) in part.watched.iter_mut().zip(&leg.watched) {
                     to.at.push(from.at.get(sides).copied().unwrap_or(Side::Unknown));
                 }
-                length -= rest;
+                length = (length - rest).max(0.0);
                 (self.step, self.done) = (self.step + 1, 0.0);
             }
             taken.push(part);
