@@ -1,5 +1,5 @@
 //! Climb speed and push of the self-exciting climber against its gear ratio, with the optima of its two problems: draws the
-//! picture that shows what the bounds of the problem `fastest` are for.
+//! picture that shows what the bounds of the problem `fastest_stable` are for.
 //!
 //! Run with `cargo run --release --example self_exciting -- docs/self_exciting.svg`.
 
@@ -76,13 +76,13 @@ const BLUE: RGBColor = RGBColor(0, 114, 178);
 const ORANGE: RGBColor = RGBColor(213, 94, 0);
 const GREEN: RGBColor = RGBColor(0, 158, 115);
 
-/// The problem `fastest` allows no stronger push (N).
+/// The problem `fastest_stable` allows no stronger push (N).
 const LARGEST_PUSH: f64 = 100.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "self_exciting.svg".to_owned());
     let climber = Climber::load()?;
-    let (parameters, bounded) = climber.best("fastest")?;
+    let (parameters, bounded) = climber.best("fastest_stable")?;
     let (_, unbounded) = climber.best("fastest_unbounded")?;
     // The bounded optimum has its own sprawl and spring, and lies on a curve of its own.
     let (own, spec) = (climber.gaits(&parameters)?, climber.gaits(&climber.model.parameters())?);
@@ -146,7 +146,7 @@ impl Panel<'_> {
         if let Some(bound) = bound {
             chart
                 .draw_series([Rectangle::new([(10.0, self.range.start), (120.0, bound)], GREEN.mix(0.15).filled())])?;
-            chart.draw_series([note("allowed by `fastest`", (12.0, bound - 0.07 * height), &GREEN)])?;
+            chart.draw_series([note("allowed by `fastest_stable`", (12.0, bound - 0.07 * height), &GREEN)])?;
         }
         chart.draw_series(LineSeries::new(spec.iter().copied(), BLUE.stroke_width(6)))?;
         chart.draw_series(LineSeries::new(own.iter().copied(), GREEN.stroke_width(3)))?;
@@ -154,11 +154,11 @@ impl Panel<'_> {
         let beside = |(x, y): (f64, f64)| (x + 4.0, y + 0.06 * height);
         chart.draw_series([
             note("fastest_unbounded", beside(unbounded), &ORANGE),
-            note("fastest", beside(bounded), &GREEN),
+            note("fastest_stable", beside(bounded), &GREEN),
         ])?;
         let line = |line: f64| (12.0, self.range.start + (0.2 - line * 0.07) * height);
         if bound.is_none() {
-            let (thick, thin) = ("thick: sprawl and spring of the spec", "thin: sprawl and spring of `fastest`");
+            let (thick, thin) = ("thick: sprawl and spring of the spec", "thin: sprawl and spring of `fastest_stable`");
             chart.draw_series([note(thick, line(1.0), &BLUE), note(thin, line(2.0), &GREEN)])?;
         }
         Ok(())
