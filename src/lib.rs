@@ -2,7 +2,9 @@
 //! with them periodic gaits, their stability, and the fastest stable climber.
 
 pub mod cli;
+pub mod files;
 pub mod load;
 pub mod models;
+pub mod picture;
 pub mod problem;
 pub mod verify;

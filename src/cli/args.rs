@@ -175,6 +175,18 @@ pub(crate) struct OptimizeArgs {
     /// Seed of the further starting points
     #[arg(long, default_value_t = 0, value_name = "N")]
     pub(crate) seed: u64,
+    /// Two quantities to trade for each other: the best A for every bound on B, e.g. --trade climb_speed:spectral_radius
+    #[arg(long, value_name = "A:B", allow_hyphen_values = true)]
+    pub(crate) trade: Option<String>,
+    /// Number of points of the trade-off curve
+    #[arg(long, default_value_t = 20, value_name = "N", requires = "trade")]
+    pub(crate) points: usize,
+    /// Write the trade-off curve as CSV
+    #[arg(long, value_name = "FILE", requires = "trade")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Draw the trade-off curve as SVG
+    #[arg(long, value_name = "FILE", requires = "trade")]
+    pub(crate) plot: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 mod report;
 mod request;
+mod trade;
 
 use super::args::{Cli, OptimizeArgs};
 use super::{InputError, Outcome, inputs};
@@ -31,6 +32,9 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
         settings,
     };
     let warnings = inputs::outside_range(&loaded, &start.parameters);
+    if args.trade.is_some() {
+        return trade::run(&loaded, (spec, problem), start, (args, cli.json), &warnings);
+    }
     let mut solution = solve(&assemble(&loaded, &spec, &problem, start))?;
     solution.notes.splice(0..0, warnings);
     let report = Report { spec: &spec, problem: &problem, solution: &solution };

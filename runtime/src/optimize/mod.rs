@@ -31,6 +31,7 @@ mod search;
 mod solution;
 mod starts;
 mod subproblem;
+mod trade;
 mod variables;
 mod verdict;
 
@@ -38,6 +39,7 @@ pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
 pub use solution::{Active, ActiveKind, Confirmation, Kink, Solution, Starts, Status};
+pub use trade::{Aim, Curve, Family, Gap, Origin, TradeOutcome, TradePoint, trade};
 
 use gait::NoGait;
 use program::{Failure, Program};

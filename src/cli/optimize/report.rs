@@ -186,7 +186,8 @@ fn one(unit: &str) -> String {
     }
 }
 
-fn status(status: Status) -> &'static str {
+/// The word for a status in JSON and text.
+pub(super) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",

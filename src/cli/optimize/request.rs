@@ -4,7 +4,7 @@ use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs};
 use crate::load::Loaded;
 use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
-use gaitc_compiler::ir::{Model, Problem, Sense, Symbol, Vary};
+use gaitc_compiler::ir::{Model, NodeId, Problem, Sense, Symbol, Vary};
 
 /// The problem, and the spec with the expressions that the flags added.
 pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Problem), InputError> {
@@ -32,19 +32,31 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
                 .to_owned(),
         ));
     }
+    if args.trade.is_none() {
+        depends_on_what_varies(&spec, &problem, problem.objective, &problem.objective_text)?;
+    }
+    Ok((spec, problem))
+}
+
+/// Refuses an objective that nothing moves.
+pub(super) fn depends_on_what_varies(
+    spec: &Model,
+    problem: &Problem,
+    objective: NodeId,
+    text: &str,
+) -> Result<(), InputError> {
     let moves = |symbol: Symbol| match symbol {
         Symbol::Parameter(i) => problem.vary.iter().any(|v| v.parameter == i),
         Symbol::Measure(_) | Symbol::SpectralRadius => true,
         _ => false,
     };
-    if !spec.graph.depends(&[problem.objective], moves) {
-        return Err(InputError(format!(
-            "the objective `{}` does not depend on anything that varies\n  help: state it over measures or over the parameters \
-             that --vary names",
-            problem.objective_text
-        )));
+    if spec.graph.depends(&[objective], moves) {
+        return Ok(());
     }
-    Ok((spec, problem))
+    Err(InputError(format!(
+        "the objective `{text}` does not depend on anything that varies\n  help: state it over measures or over the parameters \
+         that --vary names"
+    )))
 }
 
 fn fresh(spec: &mut Model, sense: Sense, text: &str) -> Result<Problem, InputError> {

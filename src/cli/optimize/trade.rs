@@ -1,0 +1,116 @@
+//! `gaitc optimize MODEL --trade A:B`: the best A for every bound on B.
+
+mod quantity;
+mod report;
+
+use super::{Outcome, request};
+use crate::cli::args::OptimizeArgs;
+use crate::cli::{InputError, output};
+use crate::files;
+use crate::load::Loaded;
+use crate::problem::{Start, assemble};
+use gaitc_compiler::ir::{self, Binary};
+use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, TradeOutcome, trade};
+use quantity::Quantity;
+use report::Report;
+use std::path::Path;
+
+/// More points than this show nothing new and would run for days.
+const MOST_POINTS: usize = 10_000;
+
+/// A problem of a spec whose objective gives way to two quantities.
+struct Trade<'l> {
+    loaded: &'l Loaded,
+    spec: ir::Model,
+    problem: ir::Problem,
+    first: Quantity,
+    second: Quantity,
+    start: Start,
+}
+
+/// Computes the curve and shows it in all the ways that were asked for.
+pub(super) fn run(
+    loaded: &Loaded,
+    (mut spec, problem): (ir::Model, ir::Problem),
+    start: Start,
+    (args, json): (&OptimizeArgs, bool),
+    warnings: &[String],
+) -> Result<Outcome, InputError> {
+    if !(2..=MOST_POINTS).contains(&args.points) {
+        return Err(InputError(format!("--points {}: give a number from 2 to {MOST_POINTS}", args.points)));
+    }
+    let text = args.trade.as_deref().unwrap_or_default();
+    let (first, second) = quantity::pair(&mut spec, &problem, text)?;
+    for quantity in [&first, &second] {
+        request::depends_on_what_varies(&spec, &problem, quantity.node, &quantity.text)?;
+    }
+    let asked = Trade { loaded, spec, problem, first, second, start };
+    let outcome = trade(&|aim, origin| asked.problem(aim, origin), args.points)?;
+    let report = Report { trade: &asked, outcome: &outcome, warnings };
+    if json {
+        output::json(&report.json());
+    } else {
+        output::print(&report.text());
+    }
+    if let TradeOutcome::Curve(curve) = &outcome {
+        if let Some(path) = &args.csv {
+            save(path, "--csv", &report.csv(curve).map_err(|e| InputError(format!("--csv: {e}")))?)?;
+        }
+        if let Some(path) = &args.plot {
+            let picture = report.picture(curve).svg().map_err(|e| InputError(format!("--plot: {e}")))?;
+            save(path, "--plot", picture.as_bytes())?;
+        }
+    }
+    Ok(match outcome {
+        TradeOutcome::Curve(curve) if curve.gaps.is_empty() => Outcome::Done,
+        _ => Outcome::Without,
+    })
+}
+
+fn save(path: &Path, flag: &str, contents: &[u8]) -> Result<(), InputError> {
+    files::write(path, contents).map_err(|error| {
+        InputError(format!(
+            "{flag} {}: {error}\n  help: name a file in a folder that exists and can be written",
+            path.display()
+        ))
+    })
+}
+
+impl<'l> Trade<'l> {
+    /// The problem for an aim, from the start or from a gait of the curve.
+    fn problem(&self, aim: Aim, origin: Option<&Origin>) -> Problem<'l> {
+        let (mut spec, mut problem) = (self.spec.clone(), self.problem.clone());
+        let objective = if aim == Aim::Second { &self.second } else { &self.first };
+        problem.sense = objective.sense;
+        problem.objective = objective.node;
+        problem.objective_text.clone_from(&objective.text);
+        problem.objective_dimension = objective.dimension;
+        if let Aim::Bounded(bound) = aim {
+            problem.constraints.push(self.bound(&mut spec, bound));
+        }
+        let mut start = self.start.clone();
+        if let Some(origin) = origin {
+            start.parameters.clone_from(&origin.parameters);
+            start.section.clone_from(&origin.section);
+            start.settings = Settings { starts: 1, ..start.settings };
+        }
+        assemble(self.loaded, &spec, &problem, start)
+    }
+
+    /// The second quantity at least as good as a bound.
+    fn bound(&self, spec: &mut ir::Model, bound: f64) -> ir::Constraint {
+        let second = &self.second;
+        let number = spec.graph.constant(bound);
+        let (relation, margin) = match second.sense {
+            ir::Sense::Minimize => ("<=", spec.graph.binary(Binary::Sub, number, second.node)),
+            ir::Sense::Maximize => (">=", spec.graph.binary(Binary::Sub, second.node, number)),
+        };
+        ir::Constraint {
+            margin,
+            stability_bound: second.is_spectral_radius(spec).then_some(number),
+            text: format!("{} {relation} {}", second.text, second.show(bound)),
+            dimension: second.dimension,
+            unit: Some(second.unit.clone()),
+        }
+    }
+}

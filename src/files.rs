@@ -1,0 +1,31 @@
+//! Files of results: whole or not there, whatever happens while they are written.
+
+use std::fs::{self, File};
+use std::io::{Result, Write};
+use std::path::Path;
+
+/// Writes a file: first beside its place, then under its name, so that what stood there stays until the new contents are
+/// complete. A link is followed: the file that it names is replaced, not the link. What is no regular file (a pipe,
+/// `/dev/stdout`) is written to as it is.
+///
+/// # Errors
+/// Those of the file system; the old file is then untouched.
+pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if fs::metadata(&place).is_ok_and(|known| !known.is_file()) {
+        return fs::OpenOptions::new().write(true).open(&place)?.write_all(contents);
+    }
+    let name = place.file_name().unwrap_or_default().to_string_lossy();
+    let temporary = place.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+    let written = File::create_new(&temporary).and_then(|mut file| {
+        file.write_all(contents)?;
+        // Renamed before its contents are on the disk, a file could be empty after a power cut.
+        file.sync_all()?;
+        fs::rename(&temporary, &place)
+    });
+    if written.is_err() {
+        // What is left of a failed write is of no use; that it may not be there is no error.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
