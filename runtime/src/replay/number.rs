@@ -19,16 +19,17 @@ pub(crate) trait Number: Scalar {
     /// Whether a mask holds in a lane; false where there is no such lane.
     fn holds(mask: Self::Mask, index: usize) -> bool;
 
-    /// The terms of the clock at several times.
+    /// The terms of the clock at several times, where it pays to compute them together and beforehand. Numbers that are
+    /// lanes already have them at each stage, while the one before is waited for.
     #[inline(always)]
     fn clocks<M, const T: usize, const N: usize, const P: usize, const Q: usize, const C: usize>(
-        segment: &Segment<'_, Self, P, C>,
-        times: [Self; T],
-    ) -> [M::Clock<Self>; T]
+        _: &Segment<'_, Self, P, C>,
+        _: &[Self; T],
+    ) -> Option<[M::Clock<Self>; T]>
     where
         M: Model<N, P, Q>,
     {
-        times.map(|tau| M::clock(segment.mode, &segment.env(tau)))
+        None
     }
 
     /// Whether a mask holds in all lanes.
@@ -74,8 +75,8 @@ impl Number for f64 {
     #[inline(always)]
     fn clocks<M, const T: usize, const N: usize, const P: usize, const Q: usize, const C: usize>(
         segment: &Segment<'_, f64, P, C>,
-        times: [f64; T],
-    ) -> [M::Clock<f64>; T]
+        times: &[f64; T],
+    ) -> Option<[M::Clock<f64>; T]>
     where
         M: Model<N, P, Q>,
     {
@@ -87,7 +88,7 @@ impl Number for f64 {
             M::clock(segment.mode, &Env { tau, t, p: &p, memory: &segment.wide_memory, branch: &segment.wide_branch })
         };
         let (first, second) = (group(0), group(WIDTH));
-        core::array::from_fn(|i| M::clock_lane(if i < WIDTH { &first } else { &second }, i % WIDTH))
+        Some(core::array::from_fn(|i| M::clock_lane(if i < WIDTH { &first } else { &second }, i % WIDTH)))
     }
 }
 
