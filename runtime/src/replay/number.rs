@@ -81,15 +81,27 @@ impl Number for f64 {
         M: Model<N, P, Q>,
     {
         const WIDTH: usize = <Lanes as Real>::LANES;
-        let group = |first: usize| {
-            let tau = Lanes::from_lanes(|lane| times.get(first + lane).copied().unwrap_or(0.0));
-            let p = segment.p.map(Lanes::constant);
-            let t = tau + Lanes::constant(segment.start);
-            M::clock(segment.mode, &Env { tau, t, p: &p, memory: &segment.wide_memory, branch: &segment.wide_branch })
-        };
-        let (first, second) = (group(0), group(WIDTH));
+        let (first, second) =
+            (side_by_side::<M, N, P, Q, C>(segment, times, 0), side_by_side::<M, N, P, Q, C>(segment, times, WIDTH));
         Some(core::array::from_fn(|i| M::clock_lane(if i < WIDTH { &first } else { &second }, i % WIDTH)))
     }
+}
+
+/// The terms of the clock at as many times as there are lanes, from number `first`. They go through memory, where each is a
+/// number again.
+#[inline(never)]
+fn side_by_side<M, const N: usize, const P: usize, const Q: usize, const C: usize>(
+    segment: &Segment<'_, f64, P, C>,
+    times: &[f64],
+    first: usize,
+) -> M::Clock<Lanes>
+where
+    M: Model<N, P, Q>,
+{
+    let tau = Lanes::from_lanes(|lane| times.get(first + lane).copied().unwrap_or(0.0));
+    let t = tau + Lanes::constant(segment.start);
+    let (memory, branch) = (&segment.wide_memory, &segment.wide_branch);
+    M::clock(segment.mode, &Env { tau, t, p: &segment.p.map(Lanes::constant), memory, branch })
 }
 
 impl<S: Number, const K: usize> Number for Dual<S, K> {
