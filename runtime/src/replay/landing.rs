@@ -16,6 +16,7 @@ use super::moving::Moving;
 use super::number::Number;
 use super::plan::{End, Leg};
 use crate::event::Surface;
+use crate::hybrid::GRAZING;
 use crate::model::{Gradient, Model, Section};
 use crate::sensitivity::{Clock, Crossing};
 
@@ -31,8 +32,6 @@ const CORRECTIONS: usize = 2;
 const CORRECTIONS_WITH_DERIVATIVES: usize = 4;
 /// By how much the last step may be longer than the plan's.
 const LONGEST: f64 = 1.5;
-/// Below this fraction of the guard's largest rate the linearisation would not be valid (as for runs).
-const GRAZING: f64 = 1e-4;
 /// Values of other surfaces at the event that are zero to rounding: units in the last place of their terms.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
