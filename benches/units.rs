@@ -1,6 +1,6 @@
 //! What one unit of work costs: a return map with its exact Jacobian, at the gait of every model in `specs/`, by an adaptive
 //! run, by the replay of a plan that was made nearby, and by replays of many points in lanes.
-//! `cargo bench --bench units`; a word after `--` picks the models whose names contain it.
+//! `cargo bench --bench units`; a word after `--` picks the models whose names contain it, a number is the wanted error.
 //!
 //! Each runs at the loosest tolerance at which image, Jacobian and duration are within the wanted error of a run at the
 //! tightest one: a tolerance means something else for each model and way, an error does not. Times are medians.
@@ -36,15 +36,17 @@ struct Unit {
     coordinates: Vec<f64>,
     parameters: Vec<f64>,
     memory: Vec<f64>,
+    wanted: f64,
 }
 
 impl Unit {
-    fn of(entry: &'static Entry) -> Self {
+    fn of(entry: &'static Entry, wanted: Option<f64>) -> Self {
         let loaded = embedded(entry).expect("the embedded spec is the compiled one");
         let (parameters, memory) = (loaded.parameters(), loaded.memory());
         let outcome = find_gait(entry.compiled, &GaitRequest::new(&parameters, &memory), &loaded.start()).unwrap();
         let coordinates = outcome.gait.expect("every model has a gait").coordinates.as_slice().to_vec();
-        Self { entry, coordinates, parameters, memory }
+        let wanted = wanted.unwrap_or(ERRORS[usize::from(!entry.compiled.info().explicit)]);
+        Self { entry, coordinates, parameters, memory, wanted }
     }
 
     fn request(&self, relative: f64) -> MapRequest<'_> {
@@ -66,17 +68,13 @@ impl Unit {
         }
     }
 
-    fn wanted(&self) -> f64 {
-        if self.entry.compiled.info().explicit { ERRORS[0] } else { ERRORS[1] }
-    }
-
     /// The loosest tolerance with the wanted error, the error, and the map there.
     fn loosest(&self, exact: &MapResult) -> (f64, f64, MapResult) {
         let tried = TOLERANCES.into_iter().map(|relative| {
             let map = self.run(relative);
             (relative, deviation(&map, exact), map)
         });
-        tried.into_iter().find(|(_, error, _)| *error <= self.wanted()).expect("some tolerance is tight enough")
+        tried.into_iter().find(|(_, error, _)| *error <= self.wanted).expect("some tolerance is tight enough")
     }
 
     /// A plan made a little way off the gait, at the loosest tolerance at which its replay at the gait has the wanted error.
@@ -87,7 +85,7 @@ impl Unit {
             let (_, plan) = self.entry.compiled.plan(&request).unwrap();
             let images = self.replay(plan.as_ref()?, &self.coordinates, &self.parameters);
             let error = images.held[0].then(|| difference_of(&images, exact))?;
-            (error <= self.wanted()).then(|| (relative, error, plan.unwrap()))
+            (error <= self.wanted).then(|| (relative, error, plan.unwrap()))
         })
     }
 
@@ -161,7 +159,9 @@ fn difference_of(images: &Images, exact: &MapResult) -> f64 {
 
 fn main() {
     // cargo passes `--bench`.
-    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
+    let (numbers, words): (Vec<String>, Vec<String>) = words.partition(|word| word.parse::<f64>().is_ok());
+    let wanted = numbers.first().and_then(|word| word.parse().ok());
     println!(
         "| model | adaptive: tolerance, error | steps | median | replay: tolerance, error | steps | median | in lanes |"
     );
@@ -171,7 +171,7 @@ fn main() {
         if !words.is_empty() && !words.iter().any(|word| name.contains(word.as_str())) {
             continue;
         }
-        let unit = Unit::of(entry);
+        let unit = Unit::of(entry, wanted);
         let exact = unit.run(TIGHTEST);
         let (relative, error, map) = unit.loosest(&exact);
         let steps = map.statistics.steps + map.statistics.rejected;

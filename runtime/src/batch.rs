@@ -68,7 +68,7 @@ fn chunk(
     count: usize,
 ) -> Result<Batch, RequestError> {
     let (d, p) = (map.info().coordinates.len(), map.info().parameters.len());
-    let mut batch = Batch::default();
+    let (mut batch, rows) = (Batch::default(), points.rows(d, p));
     match plan {
         Some(plan) => map.replay(plan, points, &mut batch.images)?,
         None => batch.images.make_room(count, d),
@@ -77,8 +77,8 @@ fn chunk(
         if batch.images.held.get(point) == Some(&true) {
             continue;
         }
-        let z: Vec<f64> = (0..d).map(|i| points.coordinate(point, i, d)).collect();
-        let parameters: Vec<f64> = (0..p).map(|i| points.parameter(point, i, p)).collect();
+        let z: Vec<f64> = (0..d).map(|i| rows.coordinate(point, i)).collect();
+        let parameters: Vec<f64> = (0..p).map(|i| rows.parameter(point, i)).collect();
         let request = MapRequest {
             coordinates: &z,
             parameters: &parameters,

@@ -2,8 +2,10 @@
 //!
 //! Only a product that nothing else uses is drawn into its sum. The difference of two products stays as it is: where they
 //! are equal it is exactly zero, and with one of them not rounded it would be a little off, which a square root may not bear.
+//! In the sum of two products the one is drawn in whose factors are known last: the other is then ready, and one operation
+//! less is waited for.
 
-use super::program::{Binary, Fused, Operation, Program, Value};
+use super::program::{Binary, Fused, Operation, Program, Unary, Value};
 
 impl Program {
     /// The same program with fused multiply-adds.
@@ -15,8 +17,11 @@ impl Program {
             Some(&Operation::Binary(Binary::Mul, a, b)) if uses.get(value) == Some(&1) => Some((a, b)),
             _ => None,
         };
+        let depth = self.depths();
+        let later = |a: Value, b: Value| depth.get(a) > depth.get(b);
         let fuse = |operation: Operation| match operation {
             Operation::Binary(Binary::Add, a, b) => match (product(a), product(b)) {
+                (Some((p, q)), Some(_)) if later(a, b) => Operation::Fused(Fused::MulAdd, p, q, b),
                 (_, Some((p, q))) => Operation::Fused(Fused::MulAdd, p, q, a),
                 (Some((p, q)), None) => Operation::Fused(Fused::MulAdd, p, q, b),
                 (None, None) => operation,
@@ -33,6 +38,16 @@ impl Program {
         Self { operations, values: self.values.clone(), jacobian: self.jacobian.clone() }.without_dead_values()
     }
 
+    /// How long each value is waited for from the inputs on, in products.
+    fn depths(&self) -> Vec<usize> {
+        let mut depths: Vec<usize> = Vec::with_capacity(self.operations.len());
+        for operation in &self.operations {
+            let last = operation.operands().filter_map(|value| depths.get(value).copied()).max();
+            depths.push(last.map_or(0, |depth| depth + latency(*operation)));
+        }
+        depths
+    }
+
     /// How often each value is used, by other values and as a result.
     pub(super) fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.operations.len()];
@@ -47,9 +62,19 @@ impl Program {
     }
 }
 
+/// About how many products take as long.
+fn latency(operation: Operation) -> usize {
+    match operation {
+        Operation::Unary(Unary::Neg | Unary::Abs | Unary::Signum, _) => 1,
+        Operation::Unary(..) | Operation::Binary(Binary::Pow | Binary::Atan2, ..) => 6,
+        Operation::Binary(Binary::Div, ..) => 3,
+        _ => 1,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)] // a test says what went wrong by panicking
+    #![allow(clippy::unwrap_used, clippy::panic)] // a test says what went wrong by panicking
     use super::*;
 
     /// A program from operations on the inputs 0, 1, 2; the last value is the result.
@@ -95,5 +120,17 @@ mod tests {
         assert_eq!(last(&difference.fused()), Operation::Binary(Binary::Sub, 2, 3));
         let sum = [products[0], products[1], binary(Binary::Add, 3, 4)];
         assert!(matches!(last(&program(&sum).fused()), Operation::Fused(Fused::MulAdd, ..)));
+    }
+
+    #[test]
+    fn of_two_products_the_later_one_is_drawn_in() {
+        let sine = Operation::Unary(Unary::Sin, 0);
+        let products = [sine, binary(Binary::Mul, 1, 3), binary(Binary::Mul, 1, 2)];
+        for sum in [binary(Binary::Add, 4, 5), binary(Binary::Add, 5, 4)] {
+            let fused = program(&[products[0], products[1], products[2], sum]).fused();
+            let Operation::Fused(Fused::MulAdd, p, q, term) = last(&fused) else { panic!("{fused:?}") };
+            assert_eq!(fused.operations.get(q), Some(&sine));
+            assert_eq!((p, fused.operations.get(term)), (1, Some(&products[2])));
+        }
     }
 }

@@ -187,7 +187,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline]
+    #[inline(always)]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -195,14 +195,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
         let _ = (mode, env);
         [nan(); CLOCK_TERMS]
     }
-    #[inline]
+    #[inline(always)]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline]
+    #[inline(always)]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],
@@ -471,8 +471,8 @@ fn residual_run<S: scalar::Scalar>(
     let v5 = x_w * x_w;
     let v6 = p_l * v5;
     let v7 = (-v6).mul_add(v2, v4);
-    let v8 = v1 * k_v;
-    let v9 = p_l.mul_add(k_w, v8);
+    let v8 = p_l * k_w;
+    let v9 = v1.mul_add(k_v, v8);
     let v10 = p_g.mul_add(v1, v9);
     let v11 = k_phi - x_w;
     [v7, v10, v11]
@@ -548,8 +548,8 @@ fn d_residual_run<S: scalar::Scalar>(
     let v5 = x_w * x_w;
     let v6 = p_l * v5;
     let v7 = (-v6).mul_add(v2, v4);
-    let v8 = v1 * k_v;
-    let v9 = p_l.mul_add(k_w, v8);
+    let v8 = p_l * k_w;
+    let v9 = v1.mul_add(k_v, v8);
     let v10 = p_g.mul_add(v1, v9);
     let v11 = k_phi - x_w;
     let v12 = x_w + x_w;
@@ -557,8 +557,8 @@ fn d_residual_run<S: scalar::Scalar>(
     let v14 = v2 * v13;
     let v15 = -v14;
     let v16 = p_l * v2;
-    let v17 = k_w * v16;
-    let v18 = v6.mul_add(v1, v17);
+    let v17 = v6 * v1;
+    let v18 = k_w.mul_add(v16, v17);
     let v19 = -v18;
     let v20 = k_v * v2;
     let v21 = p_g.mul_add(v2, v20);
@@ -608,8 +608,8 @@ fn linearised_run<S: scalar::Scalar>(
     let v5 = x_w * x_w;
     let v6 = p_l * v5;
     let v7 = (-v6).mul_add(v2, v4);
-    let v8 = v1 * k_v;
-    let v9 = p_l.mul_add(k_w, v8);
+    let v8 = p_l * k_w;
+    let v9 = v1.mul_add(k_v, v8);
     let v10 = p_g.mul_add(v1, v9);
     let v11 = k_phi - x_w;
     let v12 = x_w + x_w;
@@ -617,8 +617,8 @@ fn linearised_run<S: scalar::Scalar>(
     let v14 = v2 * v13;
     let v15 = -v14;
     let v16 = p_l * v2;
-    let v17 = k_w * v16;
-    let v18 = v6.mul_add(v1, v17);
+    let v17 = v6 * v1;
+    let v18 = k_w.mul_add(v16, v17);
     let v19 = -v18;
     let v20 = k_v * v2;
     let v21 = p_g.mul_add(v2, v20);

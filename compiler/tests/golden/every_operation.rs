@@ -205,7 +205,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline]
+    #[inline(always)]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -216,14 +216,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
             _ => [nan(); CLOCK_TERMS],
         }
     }
-    #[inline]
+    #[inline(always)]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline]
+    #[inline(always)]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],
@@ -1134,10 +1134,10 @@ fn d_flow_first<S: scalar::Scalar>(
     let v120 = v119.mul_add(v101, v116);
     let v121 = v49 / v43;
     let v122 = (-v121).mul_add(v112, v120);
-    let v123 = S::constant(0.1) * v122;
-    let v124 = v101 / v55;
-    let v125 = (-v53).mul_add(v101, v124);
-    let v126 = v59.mul_add(v125, v123);
+    let v123 = v101 / v55;
+    let v124 = (-v53).mul_add(v101, v123);
+    let v125 = v59 * v124;
+    let v126 = S::constant(0.1).mul_add(v122, v125);
     let v127 = v126 + S::constant(-1.0);
     let v128 = v63 + v63;
     let v129 = S::constant(1.0) / v128;
@@ -1347,10 +1347,10 @@ fn d_residual_first<S: scalar::Scalar>(
     let v124 = v123.mul_add(v104, v120);
     let v125 = v50 / v44;
     let v126 = (-v125).mul_add(v116, v124);
-    let v127 = S::constant(0.1) * v126;
-    let v128 = v104 / v56;
-    let v129 = (-v54).mul_add(v104, v128);
-    let v130 = v60.mul_add(v129, v127);
+    let v127 = v104 / v56;
+    let v128 = (-v54).mul_add(v104, v127);
+    let v129 = v60 * v128;
+    let v130 = S::constant(0.1).mul_add(v126, v129);
     let v131 = v130 + S::constant(-1.0);
     let v132 = -v131;
     let v133 = v65 + v65;
@@ -1574,10 +1574,10 @@ fn linearised_first<S: scalar::Scalar>(
     let v123 = v122.mul_add(v103, v119);
     let v124 = v50 / v44;
     let v125 = (-v124).mul_add(v115, v123);
-    let v126 = S::constant(0.1) * v125;
-    let v127 = v103 / v56;
-    let v128 = (-v54).mul_add(v103, v127);
-    let v129 = v60.mul_add(v128, v126);
+    let v126 = v103 / v56;
+    let v127 = (-v54).mul_add(v103, v126);
+    let v128 = v60 * v127;
+    let v129 = S::constant(0.1).mul_add(v125, v128);
     let v130 = v129 + S::constant(-1.0);
     let v131 = -v130;
     let v132 = v64 + v64;
@@ -2607,10 +2607,10 @@ fn tangent_flow_first<S: scalar::Scalar, const C: usize>(
     let v119 = v118.mul_add(v100, v115);
     let v120 = v49 / v43;
     let v121 = (-v120).mul_add(v111, v119);
-    let v122 = S::constant(0.1) * v121;
-    let v123 = v100 / v55;
-    let v124 = (-v53).mul_add(v100, v123);
-    let v125 = v59.mul_add(v124, v122);
+    let v122 = v100 / v55;
+    let v123 = (-v53).mul_add(v100, v122);
+    let v124 = v59 * v123;
+    let v125 = S::constant(0.1).mul_add(v121, v124);
     let v126 = v125 + S::constant(-1.0);
     let v127 = v62 + v62;
     let v128 = S::constant(1.0) / v127;
@@ -2804,10 +2804,10 @@ fn tangent_integrated_first<S: scalar::Scalar, const C: usize>(
     let v120 = v119.mul_add(v101, v116);
     let v121 = v49 / v43;
     let v122 = (-v121).mul_add(v112, v120);
-    let v123 = S::constant(0.1) * v122;
-    let v124 = v101 / v55;
-    let v125 = (-v53).mul_add(v101, v124);
-    let v126 = v59.mul_add(v125, v123);
+    let v123 = v101 / v55;
+    let v124 = (-v53).mul_add(v101, v123);
+    let v125 = v59 * v124;
+    let v126 = S::constant(0.1).mul_add(v122, v125);
     let v127 = v126 + S::constant(-1.0);
     let v128 = v62 + v62;
     let v129 = S::constant(1.0) / v128;
@@ -3144,7 +3144,7 @@ const CLOCK_TERMS: usize = 9;
 /// The terms of mode `first`'s flow that do not depend on the state.
 ///
 /// 2 additions, 5 multiplications, 2 function calls, 4 selections.
-#[inline]
+#[inline(always)]
 fn clock_first<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -3173,7 +3173,7 @@ fn clock_first<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 40 additions, 21 multiplications, 27 fused multiply-adds, 13 divisions, 29 function calls, 9 selections. A column: 3 multiplications, 3 fused multiply-adds.
-#[inline]
+#[inline(always)]
 fn staged_flow_first<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],
@@ -3238,8 +3238,8 @@ fn staged_flow_first<S: scalar::Scalar, const C: usize>(
     let v52 = v51 + p_type;
     let v53 = v52.ln();
     let v54 = v50 + v53;
-    let v55 = S::constant(0.1) * v48;
-    let v56 = c1.mul_add(v54, v55);
+    let v55 = c1 * v54;
+    let v56 = S::constant(0.1).mul_add(v48, v55);
     let v57 = v56 - x_x;
     let v58 = x_x.sqrt();
     let v59 = x_x.mul_add(v58, v58);
@@ -3300,8 +3300,8 @@ fn staged_flow_first<S: scalar::Scalar, const C: usize>(
     let v114 = (-v113).mul_add(v105, v112);
     let v115 = v94 / v52;
     let v116 = (-v50).mul_add(v94, v115);
-    let v117 = S::constant(0.1) * v114;
-    let v118 = c1.mul_add(v116, v117);
+    let v117 = c1 * v116;
+    let v118 = S::constant(0.1).mul_add(v114, v117);
     let v119 = v118 + S::constant(-1.0);
     let v120 = v58 + v58;
     let v121 = S::constant(1.0) / v120;
@@ -3339,7 +3339,7 @@ fn staged_flow_first<S: scalar::Scalar, const C: usize>(
 /// The terms of mode `second`'s flow that do not depend on the state.
 ///
 /// No operations.
-#[inline]
+#[inline(always)]
 fn clock_second<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -3362,7 +3362,7 @@ fn clock_second<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 1 addition, 1 multiplication. A column: 1 addition, 1 multiplication, 1 fused multiply-add.
-#[inline]
+#[inline(always)]
 fn staged_flow_second<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],

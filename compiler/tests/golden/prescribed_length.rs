@@ -198,7 +198,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for PrescribedLength {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline]
+    #[inline(always)]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -208,14 +208,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for PrescribedLength {
             _ => [nan(); CLOCK_TERMS],
         }
     }
-    #[inline]
+    #[inline(always)]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline]
+    #[inline(always)]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],
@@ -2130,7 +2130,7 @@ const CLOCK_TERMS: usize = 4;
 /// The terms of mode `stance`'s flow that do not depend on the state.
 ///
 /// 4 additions, 5 multiplications, 1 fused multiply-add, 2 divisions, 1 function call, 3 selections.
-#[inline]
+#[inline(always)]
 fn clock_stance<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -2161,7 +2161,7 @@ fn clock_stance<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 3 multiplications, 1 fused multiply-add, 1 function call. A column: 2 multiplications, 1 fused multiply-add.
-#[inline]
+#[inline(always)]
 fn staged_flow_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],
@@ -2173,8 +2173,8 @@ fn staged_flow_stance<S: scalar::Scalar, const C: usize>(
     let &[x_q_theta, x_p_theta] = x;
     let &[c0, c1, c2, c3] = clock;
     let (v0, v1) = x_q_theta.sin_cos();
-    let v2 = c1 * v0;
-    let v3 = c2.mul_add(x_p_theta, v2);
+    let v2 = c2 * x_p_theta;
+    let v3 = c1.mul_add(v0, v2);
     let v4 = c0 * x_p_theta;
     let v5 = c1 * v1;
     let mut products = [[S::constant(0.0); STATES]; C];

@@ -26,6 +26,7 @@ use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::{Coordinates, Reached};
 use nalgebra::{DMatrix, DVector};
+pub(crate) use passing::GRAZING;
 pub(crate) use resolution::{FAR, MISFIT, PLACES};
 use run::Run;
 

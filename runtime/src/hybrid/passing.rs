@@ -10,7 +10,7 @@ use crate::sensitivity::{Clock, Crossing};
 
 /// A transversality below this fraction of the guard's largest rate in the segment is grazing: the linearisation then
 /// holds for disturbances below its square only.
-const GRAZING: f64 = 1e-4;
+pub(crate) const GRAZING: f64 = 1e-4;
 /// A segment shorter than this fraction of the time so far is hasty; so many in a row are a Zeno run.
 const HASTY: f64 = 1e-10;
 const MOST_HASTY: usize = 16;

@@ -67,7 +67,9 @@ pub(super) fn replay<M: Model<N, P, Q>, const N: usize, const P: usize, const Q:
     if const { !M::INFO.explicit } {
         return Ok(());
     }
-    if const { M::INFO.coordinates.len() <= super::NARROW } {
+    if const { M::INFO.coordinates.len() <= 1 } {
+        points_of::<M, N, P, Q, 1>(plan, section, points, count, images);
+    } else if const { M::INFO.coordinates.len() <= super::NARROW } {
         points_of::<M, N, P, Q, 2>(plan, section, points, count, images);
     } else {
         points_of::<M, N, P, Q, 4>(plan, section, points, count, images);
@@ -83,6 +85,7 @@ fn points_of<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, 
     count: usize,
     images: &mut Images,
 ) {
+    let points = &points.rows(M::INFO.coordinates.len(), P);
     let mut first = 0;
     while first < count {
         if count - first >= WORTH_LANES {
@@ -142,7 +145,8 @@ pub(super) fn second_order<M: Model<N, P, Q>, const N: usize, const P: usize, co
     if !images.held.iter().all(|held| *held) {
         return Ok(None);
     }
-    let p: [f64; P] = core::array::from_fn(|i| point.parameter(0, i, P));
+    let rows = point.rows(M::INFO.coordinates.len(), P);
+    let p: [f64; P] = core::array::from_fn(|i| rows.parameter(0, i));
     Ok(Some(along_pairs::<M, N, P, Q>(plan, section, point.coordinates, &p, chosen)))
 }
 

@@ -25,6 +25,13 @@ pub trait OdeState: Copy {
 
     /// `self + h * sum(weights[i] * stages[i])`.
     fn advance<const S: usize>(&self, h: Self::Time, weights: [f64; S], stages: [&Self; S]) -> Self;
+
+    /// Puts it in a place. Where components fill registers they go one by one: a copy in other pieces has to reach memory
+    /// before a component can be read again.
+    #[inline(always)]
+    fn put(self, slot: &mut Self) {
+        *slot = self;
+    }
 }
 
 /// What error norms need to know of it.

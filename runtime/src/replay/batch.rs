@@ -3,14 +3,14 @@
 use super::course::Course;
 use super::number::Number;
 use super::plan::Plan;
-use super::points::{Images, Points};
+use super::points::{Images, Rows};
 use crate::model::{Model, Section};
 
 /// Replays `plan` at the points from number `first`, as many as there are lanes, with C columns; d is at most C.
 pub(crate) fn side_by_side<M, S, const N: usize, const P: usize, const Q: usize, const C: usize>(
     plan: &Plan,
     section: Section,
-    points: Points<'_>,
+    points: &Rows<'_>,
     first: usize,
     images: &mut Images,
 ) where
@@ -18,9 +18,13 @@ pub(crate) fn side_by_side<M, S, const N: usize, const P: usize, const Q: usize,
     S: Number,
 {
     let d = M::INFO.coordinates.len();
-    let p: [S; P] = core::array::from_fn(|i| S::from_values(|lane| points.parameter(first + lane, i, P)));
+    let p: [S; P] = if points.shared() {
+        core::array::from_fn(|i| S::constant(points.parameter(first, i)))
+    } else {
+        core::array::from_fn(|i| S::from_values(|lane| points.parameter(first + lane, i)))
+    };
     let z: [S; N] = core::array::from_fn(|i| match i < d {
-        true => S::from_values(|lane| points.coordinate(first + lane, i, d)),
+        true => S::from_values(|lane| points.coordinate(first + lane, i)),
         false => S::constant(0.0),
     });
     let mut dz = [[S::constant(0.0); N]; C];
@@ -29,14 +33,16 @@ pub(crate) fn side_by_side<M, S, const N: usize, const P: usize, const Q: usize,
     }
     let mut course = Course::<M, S, N, P, Q, C>::new(plan, section, &p);
     let end = course.map(z.get(..d).unwrap_or(&[]), &dz);
+    // The difference of a number and itself is not 0 where it is infinite or NaN.
+    let numbers = end.x.iter().chain(end.dx.iter().flatten());
+    let held = numbers.fold(course.valid, |held, v| S::and(held, S::constant(0.0).less_equal(*v - *v)));
     for lane in 0..S::LANES {
         let point = first + lane;
-        let finite = || end.x.iter().chain(end.dx.iter().flatten()).all(|v| v.lane(lane).is_finite());
-        let Some(held) = images.held.get_mut(point) else {
+        let Some(slot) = images.held.get_mut(point) else {
             break;
         };
-        *held = S::holds(course.valid, lane) && finite();
-        if !*held {
+        *slot = S::holds(held, lane);
+        if !*slot {
             continue;
         }
         let put = |values: &mut Vec<f64>, at: usize, value: S| {

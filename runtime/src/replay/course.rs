@@ -5,18 +5,15 @@
 //! plan's sides (`watching`); a lane for which that is not so is declined: what it holds is no result.
 
 use super::moving::{Moving, within};
-use super::number::Number;
+use super::number::{Number, STEPS};
 use super::plan::{Checks, Leg, Plan};
 use super::segment::{ROOM, Segment};
 use crate::model::{Model, Section};
-use crate::ode::Tolerance;
-use crate::ode::explicit::{Stages, attempt, stage_times};
+use crate::ode::explicit::{Rates, Stages, attempt, stage_times};
+use crate::ode::{OdeState, Tolerance};
 use crate::sensitivity::through;
 use core::marker::PhantomData;
 use smallvec::SmallVec;
-
-/// Stages of a step but the first, whose rates are known; the last is at the step's end.
-const STEPS: usize = 11;
 
 /// A replay of a plan of model M: numbers S, N states, P parameters, C columns of variations.
 pub(crate) struct Course<'a, M, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize> {
@@ -49,6 +46,7 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     Course<'a, M, S, N, P, Q, C>
 {
     /// A replay that has not started.
+    #[inline(always)]
     pub(crate) fn new(plan: &'a Plan, section: Section, p: &'a [S; P]) -> Self {
         let (zero, none) = (S::constant(0.0), Moving::zero());
         Self {
@@ -158,7 +156,9 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
             if const { S::ORDER == 0 } {
                 self.watch(leg, step, h, (&end.x, &rates.x));
             }
-            (self.at, self.rates, self.tau) = (end, rates, self.tau + h);
+            end.put(&mut self.at);
+            rates.put(&mut self.rates);
+            self.tau = self.tau + h;
         }
     }
 
@@ -179,14 +179,15 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
     pub(crate) fn step(&mut self, h: S) -> (Moving<S, N, C>, Moving<S, N, C>) {
         let Self { segment, stages, tau, at, .. } = self;
         let times = stage_times(*tau, h);
-        let clocks = S::clocks::<M, STEPS, N, P, Q, C>(segment, times);
-        let rates = |i: usize, y: &Moving<S, N, C>| {
-            let i = (i - 1).min(STEPS - 1);
-            segment.rates_with::<M, N, Q>(times[i], &clocks[i], y)
+        let clocks = S::clocks::<M, N, P, Q, C>(segment, *tau, h);
+        let at_end = match &clocks {
+            Some(clocks) => clocks[STEPS - 1],
+            None => M::clock(segment.mode, &segment.env(times[STEPS - 1])),
         };
-        stages[0] = self.rates;
+        let rates = AtStages::<M, S, N, P, Q, C> { segment, times: &times, clocks: &clocks, at_end };
+        self.rates.put(&mut stages[0]);
         let end = attempt(&rates, h, at, stages);
-        let last = rates(STEPS, &end);
+        let last = rates.at(STEPS, &end);
         (end, last)
     }
 
@@ -210,5 +211,34 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
             }
         }
         result
+    }
+}
+
+/// The flow at the stages of a step.
+struct AtStages<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize> {
+    segment: &'a Segment<'a, S, P, C>,
+    times: &'a [S; STEPS],
+    /// The terms of the clock, where they are known beforehand, ...
+    clocks: &'a Option<[M::Clock<S>; STEPS]>,
+    /// ... and those at the end of the step, which the last stage and the next step share.
+    at_end: M::Clock<S>,
+}
+
+impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usize, const C: usize>
+    Rates<Moving<S, N, C>> for AtStages<'_, M, S, N, P, Q, C>
+{
+    #[inline(always)]
+    fn at(&self, i: usize, y: &Moving<S, N, C>) -> Moving<S, N, C> {
+        let i = (i - 1).min(STEPS - 1);
+        let (segment, tau) = (self.segment, self.times[i]);
+        if const { S::ORDER > 0 } {
+            return segment.rates::<M, N, Q>(tau, y);
+        }
+        let clock = match self.clocks {
+            Some(clocks) => clocks[i],
+            None if i == STEPS - 1 => self.at_end,
+            None => M::clock(segment.mode, &segment.env(tau)),
+        };
+        segment.rates_with::<M, N, Q>(tau, &clock, y)
     }
 }

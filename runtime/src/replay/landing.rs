@@ -16,6 +16,7 @@ use super::moving::Moving;
 use super::number::Number;
 use super::plan::{End, Leg};
 use crate::event::Surface;
+use crate::hybrid::GRAZING;
 use crate::model::{Gradient, Model, Section};
 use crate::sensitivity::{Clock, Crossing};
 
@@ -25,12 +26,12 @@ const ATTEMPTS: usize = 8;
 const SHORT: f64 = 1e-7;
 /// The same in numbers with derivatives, whose own variations must not mix with what is left out.
 const SHORT_WITH_DERIVATIVES: f64 = 1e-13;
-/// Corrections on the polynomial; each makes one more order of variations exact.
-const CORRECTIONS: usize = 4;
+/// Corrections on the polynomial. In plain numbers they converge quadratically from a start that is close; ...
+const CORRECTIONS: usize = 2;
+/// ... in numbers with derivatives each makes one more order of variations exact.
+const CORRECTIONS_WITH_DERIVATIVES: usize = 4;
 /// By how much the last step may be longer than the plan's.
 const LONGEST: f64 = 1.5;
-/// Below this fraction of the guard's largest rate the linearisation would not be valid (as for runs).
-const GRAZING: f64 = 1e-4;
 /// Values of other surfaces at the event that are zero to rounding: units in the last place of their terms.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
@@ -126,7 +127,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     fn rest(&self, surface: Surface, tau: S, x: &[S; N], f: &[S; N]) -> (S, [S; N]) {
         let bend = self.segment.bend::<M, N, Q>(tau, x, f);
         let mut delta = S::constant(0.0);
-        for _ in 0..CORRECTIONS {
+        for _ in 0..if S::ORDER == 0 { CORRECTIONS } else { CORRECTIONS_WITH_DERIVATIVES } {
             let there = taylor(x, f, &bend, delta);
             let rate = core::array::from_fn(|i| bend[i].mul_add(delta, f[i]));
             let value = self.segment.value::<M, N, Q>(surface, &there, tau + delta);

@@ -15,18 +15,25 @@ pub(crate) struct Moving<S, const N: usize, const C: usize> {
 
 impl<S: Number, const N: usize, const C: usize> Moving<S, N, C> {
     /// All zeros.
+    #[inline(always)]
     pub(crate) fn zero() -> Self {
         Self { x: [S::constant(0.0); N], dx: [[S::constant(0.0); N]; C] }
     }
 }
 
+/// `start + h * sum(weights[i] * stage(i))`. What the last stage adds comes last, in one operation: the rest is known before.
 #[inline(always)]
-fn combination<S: Number, const K: usize>(weights: &[f64; K], stage: impl Fn(usize) -> S) -> S {
-    let mut sum = stage(0).times(weights[0]);
-    for s in 1..K {
-        sum = sum.plus_times(weights[s], stage(s));
+fn combination<S: Number, const K: usize>(start: S, h: S, weights: &[f64; K], stage: impl Fn(usize) -> S) -> S {
+    let last = K - 1;
+    let mut known = start;
+    if const { K > 1 } {
+        let mut sum = stage(0).times(weights[0]);
+        for s in 1..last {
+            sum = sum.plus_times(weights[s], stage(s));
+        }
+        known = sum.mul_add(h, start);
     }
-    sum
+    stage(last).mul_add(h.times(weights[last]), known)
 }
 
 impl<S: Number, const N: usize, const C: usize> OdeState for Moving<S, N, C> {
@@ -34,16 +41,28 @@ impl<S: Number, const N: usize, const C: usize> OdeState for Moving<S, N, C> {
 
     #[inline(always)]
     fn advance<const K: usize>(&self, h: S, weights: [f64; K], stages: [&Self; K]) -> Self {
-        let mut result = *self;
+        let mut result = Self::zero();
         for i in 0..N {
-            result.x[i] = combination(&weights, |s| stages[s].x[i]).mul_add(h, self.x[i]);
+            result.x[i] = combination(self.x[i], h, &weights, |s| stages[s].x[i]);
         }
         for c in 0..C {
             for i in 0..N {
-                result.dx[c][i] = combination(&weights, |s| stages[s].dx[c][i]).mul_add(h, self.dx[c][i]);
+                result.dx[c][i] = combination(self.dx[c][i], h, &weights, |s| stages[s].dx[c][i]);
             }
         }
         result
+    }
+
+    #[inline(always)]
+    fn put(self, slot: &mut Self) {
+        for i in 0..N {
+            slot.x[i] = self.x[i];
+        }
+        for c in 0..C {
+            for i in 0..N {
+                slot.dx[c][i] = self.dx[c][i];
+            }
+        }
     }
 }
 

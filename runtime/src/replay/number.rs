@@ -2,8 +2,12 @@
 
 use super::segment::Segment;
 use crate::model::{Env, Model};
+use crate::ode::explicit::NODES;
 use crate::scalar::{Lanes, Real, Scalar};
 use crate::sensitivity::Dual;
+
+/// Stages of a step but the first, whose rates are known; the last is at the step's end.
+pub(crate) const STEPS: usize = NODES.len();
 
 /// A number whose values (without the derivatives that it carries) can be looked at, lane by lane.
 pub(crate) trait Number: Scalar {
@@ -19,16 +23,18 @@ pub(crate) trait Number: Scalar {
     /// Whether a mask holds in a lane; false where there is no such lane.
     fn holds(mask: Self::Mask, index: usize) -> bool;
 
-    /// The terms of the clock at several times.
+    /// The terms of the clock at the stages of a step of size `h` from `tau`, where it pays to compute them together and
+    /// beforehand. Numbers that are lanes already have them at each stage, while the one before is waited for.
     #[inline(always)]
-    fn clocks<M, const T: usize, const N: usize, const P: usize, const Q: usize, const C: usize>(
-        segment: &Segment<'_, Self, P, C>,
-        times: [Self; T],
-    ) -> [M::Clock<Self>; T]
+    fn clocks<M, const N: usize, const P: usize, const Q: usize, const C: usize>(
+        _: &Segment<'_, Self, P, C>,
+        _: Self,
+        _: Self,
+    ) -> Option<[M::Clock<Self>; STEPS]>
     where
         M: Model<N, P, Q>,
     {
-        times.map(|tau| M::clock(segment.mode, &segment.env(tau)))
+        None
     }
 
     /// Whether a mask holds in all lanes.
@@ -70,25 +76,55 @@ impl Number for Lanes {
 impl Number for f64 {
     real!();
 
-    /// The times side by side in lanes: they do not wait for each other as the stages of a step do.
+    /// The stages side by side in lanes: the terms do not wait for each other as the stages of a step do.
     #[inline(always)]
-    fn clocks<M, const T: usize, const N: usize, const P: usize, const Q: usize, const C: usize>(
+    fn clocks<M, const N: usize, const P: usize, const Q: usize, const C: usize>(
         segment: &Segment<'_, f64, P, C>,
-        times: [f64; T],
-    ) -> [M::Clock<f64>; T]
+        tau: f64,
+        h: f64,
+    ) -> Option<[M::Clock<f64>; STEPS]>
     where
         M: Model<N, P, Q>,
     {
-        const WIDTH: usize = <Lanes as Real>::LANES;
-        let group = |first: usize| {
-            let tau = Lanes::from_lanes(|lane| times.get(first + lane).copied().unwrap_or(0.0));
-            let p = segment.p.map(Lanes::constant);
-            let t = tau + Lanes::constant(segment.start);
-            M::clock(segment.mode, &Env { tau, t, p: &p, memory: &segment.wide_memory, branch: &segment.wide_branch })
-        };
-        let (first, second) = (group(0), group(WIDTH));
-        core::array::from_fn(|i| M::clock_lane(if i < WIDTH { &first } else { &second }, i % WIDTH))
+        let first = side_by_side::<M, N, P, Q, C>(segment, tau, h, &const { nodes(0) });
+        let second = side_by_side::<M, N, P, Q, C>(segment, tau, h, &const { nodes(WIDTH) });
+        Some(core::array::from_fn(|i| M::clock_lane(if i < WIDTH { &first } else { &second }, i % WIDTH)))
     }
+}
+
+const WIDTH: usize = <Lanes as Real>::LANES;
+
+/// As many nodes of a step as there are lanes, from number `first`; the last one fills what is left.
+const fn nodes(first: usize) -> [f64; WIDTH] {
+    let mut nodes = [NODES[STEPS - 1]; WIDTH];
+    let mut i = 0;
+    while i < WIDTH && first + i < STEPS {
+        nodes[i] = NODES[first + i];
+        i += 1;
+    }
+    nodes
+}
+
+/// The terms of the clock at some nodes of a step. They go through memory, where each is a number again.
+#[inline(never)]
+fn side_by_side<M, const N: usize, const P: usize, const Q: usize, const C: usize>(
+    segment: &Segment<'_, f64, P, C>,
+    tau: f64,
+    h: f64,
+    nodes: &[f64; WIDTH],
+) -> M::Clock<Lanes>
+where
+    M: Model<N, P, Q>,
+{
+    // The bits of `stage_times`.
+    let tau = Lanes::constant(h).mul_add(Lanes::from(*nodes), Lanes::constant(tau));
+    let t = tau + Lanes::constant(segment.start);
+    // A loop: `map` of arrays is not inlined here.
+    let mut p = [Lanes::constant(0.0); P];
+    for i in 0..P {
+        p[i] = Lanes::constant(segment.p[i]);
+    }
+    M::clock(segment.mode, &Env { tau, t, p: &p, memory: &segment.wide_memory, branch: &segment.wide_branch })
 }
 
 impl<S: Number, const K: usize> Number for Dual<S, K> {

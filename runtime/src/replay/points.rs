@@ -45,7 +45,7 @@ pub struct SecondOrder {
     pub duration_second: DMatrix<f64>,
 }
 
-impl Points<'_> {
+impl<'a> Points<'a> {
     /// How many there are.
     ///
     /// # Errors
@@ -67,18 +67,50 @@ impl Points<'_> {
         Ok(count)
     }
 
+    /// Coordinates and parameters of one point after the other, of a model with `d` and `p` of them.
+    pub(crate) fn rows(&self, d: usize, p: usize) -> Rows<'a> {
+        let last = |numbers: &[f64], length: usize| numbers.len().checked_div(length).unwrap_or(0).saturating_sub(1);
+        Rows {
+            coordinates: self.coordinates,
+            parameters: self.parameters,
+            d,
+            p,
+            last_coordinates: last(self.coordinates, d),
+            last_parameters: last(self.parameters, p),
+        }
+    }
+}
+
+/// Points by rows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rows<'a> {
+    coordinates: &'a [f64],
+    parameters: &'a [f64],
+    d: usize,
+    p: usize,
+    last_coordinates: usize,
+    last_parameters: usize,
+}
+
+impl Rows<'_> {
     /// Section coordinate `i` of a point; the last point stands in for those beyond it.
-    pub(crate) fn coordinate(&self, point: usize, i: usize, d: usize) -> f64 {
-        let rows = self.coordinates.len().checked_div(d).unwrap_or(0);
-        let row = point.min(rows.saturating_sub(1));
-        self.coordinates.get(row * d + i).copied().unwrap_or(f64::NAN)
+    #[inline]
+    pub(crate) fn coordinate(&self, point: usize, i: usize) -> f64 {
+        let row = point.min(self.last_coordinates);
+        self.coordinates.get(row * self.d + i).copied().unwrap_or(f64::NAN)
     }
 
     /// Parameter `i` of a point; likewise.
-    pub(crate) fn parameter(&self, point: usize, i: usize, p: usize) -> f64 {
-        let rows = self.parameters.len().checked_div(p).unwrap_or(0);
-        let row = point.min(rows.saturating_sub(1));
-        self.parameters.get(row * p + i).copied().unwrap_or(f64::NAN)
+    #[inline]
+    pub(crate) fn parameter(&self, point: usize, i: usize) -> f64 {
+        let row = point.min(self.last_parameters);
+        self.parameters.get(row * self.p + i).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Whether all points have the same parameters.
+    #[inline]
+    pub(crate) fn shared(&self) -> bool {
+        self.last_parameters == 0
     }
 }
 

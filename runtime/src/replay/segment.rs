@@ -202,10 +202,15 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
     ) -> [S; N] {
         let fixed = |value: S| Dual { value, derivative: [S::constant(0.0)] };
         let memory: SmallVec<[Dual<S>; ROOM]> = self.memory.iter().map(|m| fixed(*m)).collect();
+        // A loop: `map` of arrays is not inlined here.
+        let mut p = [fixed(S::constant(0.0)); P];
+        for i in 0..P {
+            p[i] = fixed(self.p[i]);
+        }
         let env = Env {
             tau: Dual { value: tau, derivative: [dtau] },
             t: Dual::variable(self.start + tau, 0),
-            p: &self.p.map(fixed),
+            p: &p,
             memory: &memory,
             branch: &self.branch,
         };

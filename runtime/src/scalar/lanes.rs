@@ -104,6 +104,12 @@ impl Scalar for Lanes {
         Self(self.0.sqrt())
     }
     fn pow(self, exponent: Self) -> Self {
+        let (bases, powers) = (self.0.to_array(), exponent.0.to_array());
+        let same = |numbers: [f64; 8]| numbers.iter().all(|number| number.to_bits() == numbers[0].to_bits());
+        // Signs that alternate with the memory, such as (-1)^n, are the same in all lanes.
+        if same(bases) && same(powers) {
+            return Self::constant(Scalar::pow(bases[0], powers[0]));
+        }
         self.both(exponent, Scalar::pow)
     }
     #[inline]

@@ -54,17 +54,17 @@ pub(super) fn dispatch(context: &Context<'_>) -> TokenStream {
     quote! {
         type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
 
-        #[inline]
+        #[inline(always)]
         fn clock<S: scalar::Scalar>(mode: usize, env: &model::Env<'_, S, PARAMETERS>) -> [S; CLOCK_TERMS] {
             #clock
         }
 
-        #[inline]
+        #[inline(always)]
         fn clock_lane<S: scalar::Real>(clock: &[S; CLOCK_TERMS], lane: usize) -> [f64; CLOCK_TERMS] {
             clock.map(|term| term.lane(lane))
         }
 
-        #[inline]
+        #[inline(always)]
         fn variational_at<S: scalar::Scalar, const C: usize>(
             mode: usize,
             x: &[S; STATES],
@@ -92,11 +92,12 @@ fn clock(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStream, 
         text::counts(program.counts()),
     ]);
     let (bindings, statements) = (body.bind_env(&quote!(return [nan(); CLOCK_TERMS])), body.statements());
+    let inline = text::inlined(program);
     let own = (0..program.values.len()).map(|row| body.component(row));
     let unused = (program.values.len()..terms(context)).map(|_| constant(0.0));
     Ok(quote! {
         #doc
-        #[inline]
+        #inline
         fn #function<S: scalar::Scalar>(env: &model::Env<'_, S, PARAMETERS>) -> [S; CLOCK_TERMS] {
             #bindings
             #statements
@@ -133,5 +134,5 @@ fn staged(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStream,
             (#value, products)
         },
     };
-    Ok(with_columns(function.print(context, products.counts())))
+    Ok(with_columns(function.print(context, products.counts()), &text::inlined(program)))
 }

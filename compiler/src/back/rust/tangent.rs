@@ -55,7 +55,7 @@ fn flow(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStream, E
             (#value, products)
         },
     };
-    Ok(with_columns(function.print(context, products.counts())))
+    Ok(with_columns(function.print(context, products.counts()), &quote!(#[inline])))
 }
 
 fn integrated(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStream, EmitError> {
@@ -96,7 +96,7 @@ fn integrated(context: &Context<'_>, mode: usize, name: &str) -> Result<TokenStr
             model::Integrated { flow: #flow, integrands: #integrands, dflow, dintegrands }
         },
     };
-    Ok(with_columns(function.print(context, products.counts())))
+    Ok(with_columns(function.print(context, products.counts()), &quote!(#[inline])))
 }
 
 fn integrands(context: &Context<'_>, mode: Option<usize>) -> Result<TokenStream, EmitError> {
@@ -130,16 +130,16 @@ fn integrands(context: &Context<'_>, mode: Option<usize>) -> Result<TokenStream,
             (#values, products)
         },
     };
-    Ok(with_columns(function.print(context, products.counts())))
+    Ok(with_columns(function.print(context, products.counts()), &quote!(#[inline])))
 }
 
-/// Makes a printed function generic over the number of columns, and a candidate for inlining.
-pub(super) fn with_columns(function: TokenStream) -> TokenStream {
+/// Makes a printed function generic over the number of columns, with an attribute that lets it be inlined.
+pub(super) fn with_columns(function: TokenStream, inline: &TokenStream) -> TokenStream {
     // The printer of state functions knows one type parameter; the number of columns is added in the tree, not the text.
     match syn::parse2::<syn::ItemFn>(function.clone()) {
         Ok(mut item) => {
             item.sig.generics.params.push(syn::parse_quote!(const C: usize));
-            item.attrs.push(syn::parse_quote!(#[inline]));
+            item.attrs.push(syn::parse_quote!(#inline));
             quote!(#item)
         }
         // What does not parse is reported where the file is formatted.

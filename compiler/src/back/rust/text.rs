@@ -1,7 +1,7 @@
 //! From tokens to formatted text.
 
 use super::EmitError;
-use crate::casadi::program::Counts;
+use crate::casadi::program::{Counts, Program};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
@@ -28,6 +28,15 @@ pub(super) fn number(value: f64) -> TokenStream {
 /// A number of things as a literal.
 pub(super) fn count(value: usize) -> Literal {
     Literal::usize_unsuffixed(value)
+}
+
+/// What is longer is not copied to each of the twelve stages of a step.
+const INLINED: usize = 400;
+
+/// The attribute of a function that a step calls at each of its stages. What is passed through memory there is waited for, so
+/// the compiler is told to inline it.
+pub(super) fn inlined(program: &Program) -> TokenStream {
+    if program.operations.len() <= INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) }
 }
 
 /// Operation counts for people.

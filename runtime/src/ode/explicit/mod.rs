@@ -5,7 +5,7 @@ mod dense;
 mod step;
 
 pub use dense::Dense;
-pub use step::{ERROR_WEIGHTS, Stages, attempt, error, stage_times, stiffness};
+pub use step::{ERROR_WEIGHTS, NODES, Rates, Stages, attempt, error, stage_times, stiffness};
 
 /// The error estimate behaves like h to this power.
 pub const ERROR_ORDER: f64 = 8.0;

@@ -18,27 +18,52 @@ macro_rules! combine {
 }
 pub(super) use combine;
 
+/// The times of the stages 1 to 11 of a step, as fractions of it.
+pub const NODES: [f64; STAGES - 1] = {
+    let mut nodes = [0.0; STAGES - 1];
+    let mut i = 0;
+    while i < nodes.len() {
+        nodes[i] = C[i + 1];
+        i += 1;
+    }
+    nodes
+};
+
 /// The times of the stages 1 to 11 of a step, the last of which is its end.
 #[inline(always)]
 pub fn stage_times<T: Scalar>(tau: T, h: T) -> [T; STAGES - 1] {
     core::array::from_fn(|i| tau.plus_times(C[i + 1], h))
 }
 
-/// One step of size `h` from `y`, given `k[0]`, the flow there, and `rates(i, y)`, the flow at the time of stage i. Fills the
-/// other stages, returns the end value.
+/// The flow at the times of the stages of a step. A trait and not a closure: closures are not inlined where they are called
+/// twelve times, and what is passed through memory is waited for.
+pub trait Rates<V> {
+    /// The flow at the time of stage `i` and at `y`.
+    fn at(&self, i: usize, y: &V) -> V;
+}
+
+impl<V, F: Fn(usize, &V) -> V> Rates<V> for F {
+    #[inline(always)]
+    fn at(&self, i: usize, y: &V) -> V {
+        self(i, y)
+    }
+}
+
+/// One step of size `h` from `y`, given `k[0]`, the flow there, and the flow at the other stages. Fills these, returns the end
+/// value.
 #[inline(always)]
-pub fn attempt<V: OdeState>(rates: &impl Fn(usize, &V) -> V, h: V::Time, y: &V, k: &mut Stages<V>) -> V {
-    k[1] = rates(1, &combine!(y, h, k, A[1]; 0));
-    k[2] = rates(2, &combine!(y, h, k, A[2]; 0, 1));
-    k[3] = rates(3, &combine!(y, h, k, A[3]; 0, 2));
-    k[4] = rates(4, &combine!(y, h, k, A[4]; 0, 2, 3));
-    k[5] = rates(5, &combine!(y, h, k, A[5]; 0, 3, 4));
-    k[6] = rates(6, &combine!(y, h, k, A[6]; 0, 3, 4, 5));
-    k[7] = rates(7, &combine!(y, h, k, A[7]; 0, 3, 4, 5, 6));
-    k[8] = rates(8, &combine!(y, h, k, A[8]; 0, 3, 4, 5, 6, 7));
-    k[9] = rates(9, &combine!(y, h, k, A[9]; 0, 3, 4, 5, 6, 7, 8));
-    k[10] = rates(10, &combine!(y, h, k, A[10]; 0, 3, 4, 5, 6, 7, 8, 9));
-    k[11] = rates(11, &combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10));
+pub fn attempt<V: OdeState>(rates: &impl Rates<V>, h: V::Time, y: &V, k: &mut Stages<V>) -> V {
+    rates.at(1, &combine!(y, h, k, A[1]; 0)).put(&mut k[1]);
+    rates.at(2, &combine!(y, h, k, A[2]; 0, 1)).put(&mut k[2]);
+    rates.at(3, &combine!(y, h, k, A[3]; 0, 2)).put(&mut k[3]);
+    rates.at(4, &combine!(y, h, k, A[4]; 0, 2, 3)).put(&mut k[4]);
+    rates.at(5, &combine!(y, h, k, A[5]; 0, 3, 4)).put(&mut k[5]);
+    rates.at(6, &combine!(y, h, k, A[6]; 0, 3, 4, 5)).put(&mut k[6]);
+    rates.at(7, &combine!(y, h, k, A[7]; 0, 3, 4, 5, 6)).put(&mut k[7]);
+    rates.at(8, &combine!(y, h, k, A[8]; 0, 3, 4, 5, 6, 7)).put(&mut k[8]);
+    rates.at(9, &combine!(y, h, k, A[9]; 0, 3, 4, 5, 6, 7, 8)).put(&mut k[9]);
+    rates.at(10, &combine!(y, h, k, A[10]; 0, 3, 4, 5, 6, 7, 8, 9)).put(&mut k[10]);
+    rates.at(11, &combine!(y, h, k, A[11]; 0, 3, 4, 5, 6, 7, 8, 9, 10)).put(&mut k[11]);
     combine!(y, h, k, A[12]; 0, 5, 6, 7, 8, 9, 10, 11)
 }
 
