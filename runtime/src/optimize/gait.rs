@@ -16,11 +16,22 @@ pub(super) enum NoGait {
     NotConverged(f64),
     /// The coordinates repeat, another state does not: in words.
     Open(String),
+    /// Somebody asked to stop.
+    Interrupted,
     /// The problem is wrong.
     Wrong(ProblemError),
 }
 
-/// One map with the Jacobian in the coordinates.
+/// A gait to start from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Start {
+    /// All parameters.
+    pub(super) parameters: Vec<f64>,
+    /// Its section coordinates.
+    pub(super) section: Vec<f64>,
+}
+
+/// One map with the Jacobian in the coordinates; none where somebody asked to stop.
 pub(super) fn map(
     problem: &Problem<'_>,
     parameters: &[f64],
@@ -28,6 +39,9 @@ pub(super) fn map(
     accuracy: Accuracy,
     measures: bool,
 ) -> Result<MapResult, NoGait> {
+    if problem.settings.interrupt.requested() {
+        return Err(NoGait::Interrupted);
+    }
     let outcome = problem.map.evaluate(&MapRequest {
         coordinates: section,
         parameters,
@@ -62,16 +76,30 @@ pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> 
     }
 }
 
-/// Follows a gait from one set of parameters to another, halving the way on failure; predicts along the secant.
-pub(super) fn follow(problem: &Problem<'_>, from: (&[f64], &[f64]), to: &[f64]) -> Result<Vec<f64>, NoGait> {
-    let (start, gait) = from;
+/// Follows a gait from one set of parameters to another.
+pub(super) fn follow(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<Start, NoGait> {
+    let (last, failure) = follow_far(problem, from, to)?;
+    failure.map_or(Ok(last), Err)
+}
+
+/// Follows a gait from one set of parameters towards another as far as it goes, halving the way on failure; predicts along
+/// the secant. The last gait, and why it went no further.
+///
+/// # Errors
+/// Only for a problem that is wrong as stated.
+pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<(Start, Option<NoGait>), NoGait> {
     let between = |t: f64| -> Vec<f64> {
-        start.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
+        from.parameters.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
     };
     let (mut t, mut stride) = (0.0, 1.0);
-    let mut z = gait.to_vec();
+    let mut z = from.section.clone();
     let mut slope = vec![0.0; z.len()];
-    while t < 1.0 {
+    let mut failed = None;
+    while t < 1.0 && failed.is_none() {
+        if problem.settings.interrupt.requested() {
+            failed = Some(NoGait::Interrupted);
+            break;
+        }
         let next: f64 = f64::min(1.0, t + stride);
         let guess: Vec<f64> = z.iter().zip(&slope).map(|(z, s)| z + s * (next - t)).collect();
         match near(problem, &between(next), &guess) {
@@ -84,11 +112,10 @@ pub(super) fn follow(problem: &Problem<'_>, from: (&[f64], &[f64]), to: &[f64]) 
             Err(failure) => {
                 stride *= 0.5;
                 slope.fill(0.0);
-                if stride < SHORTEST {
-                    return Err(failure);
-                }
+                failed = (stride < SHORTEST).then_some(failure);
             }
         }
     }
-    Ok(z)
+    let parameters = if t > 0.0 { between(t) } else { from.parameters.clone() };
+    Ok((Start { parameters, section: z }, failed))
 }

@@ -190,6 +190,9 @@ fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",
+        Status::Infeasible => "infeasible",
+        Status::Undefined => "undefined",
+        Status::Interrupted => "interrupted",
         Status::InfeasibleLocally => "infeasible_locally",
         Status::NoGait => "no_gait",
         Status::Unbounded => "unbounded",
