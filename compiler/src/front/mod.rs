@@ -27,6 +27,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Model;
 use crate::source::{FileId, SourceMap, Span};
 pub use check::{Checked, check_file, may_be_spec};
+pub use keys::LONGEST_PERIOD;
 pub use format::{format_number, format_quantity, format_si, in_unit};
 pub use names::{is_module_name, suggest};
 pub use parts::Library;
