@@ -24,7 +24,6 @@ const GAIT_KEYS: [&str; 11] = [
     "method",
 ];
 
-
 /// More segments than this are shorter than the steps of any integration.
 const MOST_SEGMENTS: usize = 100;
 

@@ -9,6 +9,7 @@ use super::gait::Start;
 use super::problem::{Problem, ProblemError};
 use super::restore::{Blocked, Pushed, Restored, push, restore};
 use super::standing::standing;
+use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// From how many starts each set is tried.
@@ -86,35 +87,26 @@ pub(super) fn find(problem: &Problem<'_>, blocked: &[Blocked]) -> Result<Found, 
 
 /// How far each member gets while the others hold.
 fn reached(problem: &Problem<'_>, members: &[bool], pool: &[&Start]) -> Result<Found, ProblemError> {
+    let numbers: Vec<usize> = (0..members.len()).filter(|&i| members[i]).collect();
+    let furthest = numbers.par_iter().map(|&i| furthest(problem, members, i, pool));
+    let furthest: Vec<Furthest> = furthest.collect::<Result<_, _>>()?;
     let mut agreeing = usize::MAX;
     let mut conflict = Vec::new();
-    for i in (0..members.len()).filter(|&i| members[i]) {
-        let others = except(members, i);
-        let mut best: Option<Pushed> = None;
-        let mut converged = 0;
-        for start in pool {
-            let Restored::Feasible(from) = restore(problem, &others, start)? else { continue };
-            let Some(pushed) = push(problem, &others, i, &from)? else { continue };
-            if pushed.reached {
-                // They can hold together after all; perhaps the rest can, too, from there.
-                let all = vec![true; members.len()];
-                return Ok(match restore(problem, &all, &pushed.gait)? {
-                    Restored::Feasible(gait) => Found::Feasible(gait),
-                    Restored::Blocked(_) | Restored::Lost => Found::Nothing,
-                });
-            }
-            converged += usize::from(pushed.converged);
-            let further = |best: &Pushed| pushed.standing.scaled[i].total_cmp(&best.standing.scaled[i]);
-            if best.as_ref().is_none_or(|best| further(best) == Ordering::Greater) {
-                best = Some(pushed);
-            }
+    for (&constraint, furthest) in numbers.iter().zip(furthest) {
+        let Some(Pushed { gait, standing, reached, .. }) = furthest.best else { return Ok(Found::Nothing) };
+        if reached {
+            // They can hold together after all; perhaps the rest can, too, from there.
+            let all = vec![true; members.len()];
+            return Ok(match restore(problem, &all, &gait)? {
+                Restored::Feasible(gait) => Found::Feasible(gait),
+                Restored::Blocked(_) | Restored::Lost => Found::Nothing,
+            });
         }
-        let Some(Pushed { gait, standing, .. }) = best else { return Ok(Found::Nothing) };
-        agreeing = agreeing.min(converged);
+        agreeing = agreeing.min(furthest.converged);
         conflict.push(Reached {
-            constraint: i,
-            margin: standing.margins[i],
-            scaled: standing.scaled[i],
+            constraint,
+            margin: standing.margins[constraint],
+            scaled: standing.scaled[constraint],
             parameters: gait.parameters,
             section: gait.section,
             measures: standing.measures,
@@ -122,6 +114,34 @@ fn reached(problem: &Problem<'_>, members: &[bool], pool: &[&Start]) -> Result<F
         });
     }
     Ok(Found::Conflict(Conflict { members: conflict, agreeing }))
+}
+
+/// The largest margin of a member over all starts, and how many searches for it converged.
+struct Furthest {
+    best: Option<Pushed>,
+    converged: usize,
+}
+
+/// Pushes a member from every start, while the others hold.
+fn furthest(
+    problem: &Problem<'_>,
+    members: &[bool],
+    constraint: usize,
+    pool: &[&Start],
+) -> Result<Furthest, ProblemError> {
+    let others = except(members, constraint);
+    let mut found = Furthest { best: None, converged: 0 };
+    for start in pool {
+        let Restored::Feasible(from) = restore(problem, &others, start)? else { continue };
+        let Some(pushed) = push(problem, &others, constraint, &from)? else { continue };
+        found.converged += usize::from(pushed.converged);
+        let margin = |pushed: &Pushed| pushed.standing.scaled[constraint];
+        let further = |best: &Pushed| margin(&pushed).total_cmp(&margin(best)) == Ordering::Greater;
+        if found.best.as_ref().is_none_or(|best| !best.reached && (pushed.reached || further(best))) {
+            found.best = Some(pushed);
+        }
+    }
+    Ok(found)
 }
 
 /// Whether constraints cannot be brought to hold together from any of these starts.

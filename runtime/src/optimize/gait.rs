@@ -6,6 +6,10 @@ use crate::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, Sensitivity
 
 /// Smallest part of the way that continuation takes at once.
 const SHORTEST: f64 = 1.0 / 512.0;
+/// Most Newton steps to a gait of which only a guess is known ...
+const NEWTON_STEPS: usize = 50;
+/// ... and to the next one on the way: more would say that the way is too long.
+const CORRECTIONS: usize = 10;
 
 /// Why there is no gait.
 #[derive(Clone, Debug)]
@@ -60,8 +64,14 @@ pub(super) fn map(
 
 /// The gait near a guess.
 pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
+    within(problem, parameters, guess, NEWTON_STEPS)
+}
+
+/// The gait near a guess, in so many Newton steps from each of its starts.
+fn within(problem: &Problem<'_>, parameters: &[f64], guess: &[f64], steps: usize) -> Result<Vec<f64>, NoGait> {
     let request = GaitRequest {
         period: problem.period,
+        iteration_limit: steps,
         accuracy: problem.settings.accuracy,
         measures: false,
         tolerance: f64::max(1e-10, 10.0 * problem.settings.accuracy.relative),
@@ -102,7 +112,7 @@ pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Res
         }
         let next: f64 = f64::min(1.0, t + stride);
         let guess: Vec<f64> = z.iter().zip(&slope).map(|(z, s)| z + s * (next - t)).collect();
-        match near(problem, &between(next), &guess) {
+        match within(problem, &between(next), &guess, CORRECTIONS) {
             Ok(found) => {
                 slope = found.iter().zip(&z).map(|(a, b)| (a - b) / (next - t)).collect();
                 (z, t) = (found, next);

@@ -144,6 +144,11 @@ pub(super) fn also_others(starts: usize) -> String {
     format!(" ({starts} starts ended without an optimum)")
 }
 
+/// The note where the first guess led to no gait, at the given parameters or elsewhere in the ranges.
+pub(super) fn nowhere(places: usize) -> String {
+    format!("nor was there a gait near that guess at {places} other places in the ranges")
+}
+
 /// The message without a gait.
 pub(super) fn no_gait(detail: &str) -> String {
     format!("no periodic gait to start from: {detail}; give a better first guess of the section, or other parameters")

@@ -86,6 +86,12 @@ fn from_all_starts(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
         Err(NoGait::Wrong(error)) => return Err(error),
         Err(failure) => {
             let mut solution = verdict::no_gait(problem, parameters, &failure).solution;
+            if matches!(failure, NoGait::Interrupted) {
+                solution.status = Status::Interrupted;
+                solution.message = "interrupted before any gait was found".to_owned();
+            } else {
+                solution.notes.push(message::nowhere(starts::RESCUES));
+            }
             solution.starts.run = 1;
             return Ok(solution);
         }

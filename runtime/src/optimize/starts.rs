@@ -6,9 +6,10 @@
 use super::gait::{self, NoGait, Start};
 use super::problem::Problem;
 use super::sobol;
+use rayon::prelude::*;
 
 /// How many other parameter sets are tried when there is no gait at the given ones.
-const RESCUES: usize = 32;
+pub(super) const RESCUES: usize = 32;
 
 /// The given parameters with the varied ones inside their ranges, and the numbers of those that had to be moved.
 pub(super) fn projected(problem: &Problem<'_>) -> (Vec<f64>, Vec<usize>) {
@@ -41,12 +42,15 @@ pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, 
     {
         return Ok(start);
     }
-    let found = (1..=RESCUES).find_map(|number| {
+    let found = (1..=RESCUES).into_par_iter().find_map_first(|number| {
+        if problem.settings.interrupt.requested() {
+            return None;
+        }
         let parameters = spread(problem, parameters, number);
         let section = gait::near(problem, &parameters, &problem.start).ok()?;
         Some(Start { parameters, section })
     });
-    found.ok_or(failure)
+    found.ok_or(if problem.settings.interrupt.requested() { NoGait::Interrupted } else { failure })
 }
 
 /// Start number `number` (from 1), followed from the first; where the gait cannot be followed all the way, the last one

@@ -60,6 +60,7 @@ impl Report<'_> {
     fn reached_text(&self, member: &Reached, conflict: &Conflict) -> String {
         let constraint = &self.problem.constraints[member.constraint];
         let quantity = |value: f64| match self.unit(constraint) {
+            _ if constraint.stability_bound.is_some() => format_quantity(value, ""),
             Some(unit) => format_quantity(value, unit),
             None => format_si(value, constraint.dimension),
         };
