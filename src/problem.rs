@@ -31,7 +31,7 @@ pub fn assemble<'a>(loaded: &'a Loaded, spec: &ir::Model, problem: &ir::Problem,
     let constraint = |c: &ir::Constraint| {
         let kind = match c.stability_bound {
             Some(bound) => ConstraintKind::SpectralRadius {
-                bound: match graph.constant_value(bound) {
+                bound: match fixed(&graph, bound, problem, &start.parameters) {
                     Some(bound) => Bound::Constant(bound),
                     None => Bound::Expression(Box::new(expression(bound))),
                 },
@@ -47,7 +47,7 @@ pub fn assemble<'a>(loaded: &'a Loaded, spec: &ir::Model, problem: &ir::Problem,
     Problem {
         map: loaded.compiled,
         memory: loaded.memory(),
-        period: 1,
+        period: problem.period,
         vary: problem.vary.iter().map(vary).collect(),
         sense: match problem.sense {
             ir::Sense::Maximize => Sense::Maximize,
@@ -59,6 +59,22 @@ pub fn assemble<'a>(loaded: &'a Loaded, spec: &ir::Model, problem: &ir::Problem,
         start: start.section,
         settings: start.settings,
     }
+}
+
+/// The value of an expression in which nothing varies: neither measures nor the problem's parameters are in it, but for
+/// those whose range is a point. SI units; `None` where something varies.
+pub fn fixed(graph: &Graph, root: NodeId, problem: &ir::Problem, parameters: &[f64]) -> Option<f64> {
+    let range = |i: usize| problem.vary.iter().find(|vary| vary.parameter == i);
+    let varies = |symbol: Symbol| match symbol {
+        Symbol::Parameter(i) => range(i).is_some_and(|vary| vary.lower < vary.upper),
+        _ => true,
+    };
+    if graph.depends(&[root], varies) {
+        return None;
+    }
+    let value_of = |(i, &value): (usize, &f64)| range(i).map_or(value, |vary| vary.lower);
+    let parameters: Vec<f64> = parameters.iter().enumerate().map(value_of).collect();
+    Some(value(graph, root, &Environment { parameters: &parameters, ..Environment::default() }))
 }
 
 fn vary(vary: &ir::Vary) -> Vary {

@@ -94,7 +94,7 @@ fn infeasible_margin_is_named() {
     let mut problem = problem(&map, Sense::Maximize, expression(|m, _| m[0]), &[0.1, 0.1], &[(0.0, 1.0), (0.0, 1.0)]);
     problem.constraints.push(margin("p0 >= 2", |_, p| p[0] - 2.0));
     let solution = solved(&problem);
-    assert_eq!(solution.status, Status::InfeasibleLocally);
+    assert_eq!(solution.status, Status::Infeasible);
     assert!(solution.message.contains("`p0 >= 2`"), "{}", solution.message);
     assert!(solution.active.is_empty() && solution.confirmation.is_none());
     assert_relative_eq!(solution.parameters[0], 1.0, epsilon = 1e-6);

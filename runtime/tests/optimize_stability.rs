@@ -162,7 +162,7 @@ fn smallest_spectral_radius_within_a_margin() {
 fn a_bound_that_cannot_be_met_is_named() {
     let map = meeting();
     let solution = solved(&bounded(&map, &[0.7], 0.3));
-    assert_eq!(solution.status, Status::InfeasibleLocally);
+    assert_eq!(solution.status, Status::Infeasible);
     assert!(solution.message.contains("`spectral_radius <= 0.3`"), "{}", solution.message);
 }
 

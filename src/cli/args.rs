@@ -169,12 +169,18 @@ pub(crate) struct OptimizeArgs {
     /// Constraint, e.g. --subject-to 'mean_power <= 60 [W]'
     #[arg(long = "subject-to", value_name = "EXPR", allow_hyphen_values = true)]
     pub(crate) subject_to: Vec<String>,
+    /// Number of maps that make the gait [default: that of the problem, else 1]
+    #[arg(long, value_name = "K")]
+    pub(crate) period: Option<usize>,
     /// Number of starting points
     #[arg(long, default_value_t = 1, value_name = "N")]
     pub(crate) starts: usize,
     /// Seed of the further starting points
     #[arg(long, default_value_t = 0, value_name = "N")]
     pub(crate) seed: u64,
+    /// Number of starts that run side by side, which does not change the result [default: one a core]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
     /// Two quantities to trade for each other: the best A for every bound on B, e.g. --trade climb_speed:spectral_radius
     #[arg(long, value_name = "A:B", allow_hyphen_values = true)]
     pub(crate) trade: Option<String>,

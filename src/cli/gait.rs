@@ -24,16 +24,11 @@ const GAIT_KEYS: [&str; 11] = [
     "method",
 ];
 
-/// Longer periods are not gaits that anybody could tell from chaos.
-const LONGEST_PERIOD: usize = 1000;
-
 /// More segments than this are shorter than the steps of any integration.
 const MOST_SEGMENTS: usize = 100;
 
 pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
-    if args.period == 0 || args.period > LONGEST_PERIOD {
-        return Err(InputError(format!("--period {}: give a number from 1 to {LONGEST_PERIOD}", args.period)));
-    }
+    inputs::period(args.period)?;
     if args.segments == 0 || args.segments > MOST_SEGMENTS {
         return Err(InputError(format!("--segments {}: give a number from 1 to {MOST_SEGMENTS}", args.segments)));
     }

@@ -3,6 +3,7 @@
 use super::InputError;
 use super::args::{ModelArgs, SearchArgs};
 use crate::load::Loaded;
+use gaitc_compiler::front::LONGEST_PERIOD;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::Parameter;
@@ -74,6 +75,14 @@ pub(super) fn accuracy(args: &SearchArgs) -> Result<Accuracy, InputError> {
             Ok(Accuracy { relative: tol, absolute: tol * (accuracy.absolute / accuracy.relative), ..accuracy })
         }
         Some(tol) => Err(InputError(format!("--tol {tol}: give a number from 1e-15 to 1e-2"))),
+    }
+}
+
+/// Checks a number of maps that make one gait.
+pub(super) fn period(period: usize) -> Result<(), InputError> {
+    match (1..=LONGEST_PERIOD).contains(&period) {
+        true => Ok(()),
+        false => Err(InputError(format!("--period {period}: give a number from 1 to {LONGEST_PERIOD}"))),
     }
 }
 

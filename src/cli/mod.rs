@@ -21,6 +21,9 @@ use clap::Parser;
 use serde_json::json;
 use std::process::ExitCode;
 
+/// The exit code of a program that Ctrl-C ended: 128 and the number of the signal.
+const INTERRUPTED: u8 = 130;
+
 /// How a command that could run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
@@ -28,6 +31,8 @@ enum Outcome {
     Done,
     /// Without: no gait, no optimum, a derivative that is wrong.
     Without,
+    /// Somebody pressed Ctrl-C; what there was has been printed.
+    Interrupted,
 }
 
 /// Wrong input: the text says where, what was expected and what to write instead.
@@ -62,6 +67,7 @@ pub fn main() -> ExitCode {
         Ok(_) if output::lost() => ExitCode::from(1),
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Without) => ExitCode::from(2),
+        Ok(Outcome::Interrupted) => ExitCode::from(INTERRUPTED),
         Err(InputError(message)) => {
             if cli.json && !cli.command.prints_its_own_errors() {
                 output::json(&json!({ "status": "error", "message": message }));

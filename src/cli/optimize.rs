@@ -1,47 +1,75 @@
 //! `gaitc optimize MODEL`: the best gait over parameters.
 
+mod conflict;
+mod fixed;
+mod optima;
 mod report;
 mod request;
 mod trade;
 
 use super::args::{Cli, OptimizeArgs};
-use super::{InputError, Outcome, inputs};
+use super::{INTERRUPTED, InputError, Outcome, inputs};
 use crate::load::load;
 use crate::problem::{Start, assemble};
-use gaitc_runtime::optimize::{Settings, Status, solve};
+use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve};
 use report::Report;
 
 /// More starts than this tell nothing new and would run for days.
 const MOST_STARTS: usize = 100_000;
+/// More threads than this only wait for each other.
+const MOST_THREADS: usize = 1024;
 
 pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError> {
     if args.starts == 0 || args.starts > MOST_STARTS {
         return Err(InputError(format!("--starts {}: give a number from 1 to {MOST_STARTS}", args.starts)));
     }
+    if let Some(threads) = args.threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
+        return Err(InputError(format!("--threads {threads}: give a number from 1 to {MOST_THREADS}")));
+    }
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let (spec, problem) = request::problem(&loaded, args)?;
+    let parameters = inputs::parameters(&loaded, &args.model)?;
+    let mut warnings = inputs::outside_range(&loaded, &parameters);
+    warnings.extend(fixed::constraints(&spec, &problem, &parameters)?);
     let settings = Settings {
         accuracy: inputs::accuracy(&args.search)?,
         starts: args.starts,
         seed: args.seed,
+        threads: args.threads.unwrap_or(0),
+        interrupt: on_interrupt(),
         ..Settings::default()
     };
-    let start = Start {
-        parameters: inputs::parameters(&loaded, &args.model)?,
-        section: inputs::guess(&loaded, &args.search)?,
-        settings,
-    };
-    let warnings = inputs::outside_range(&loaded, &start.parameters);
+    let start = Start { parameters, section: inputs::guess(&loaded, &args.search)?, settings };
     if args.trade.is_some() {
         return trade::run(&loaded, (spec, problem), start, (args, cli.json), &warnings);
     }
     let mut solution = solve(&assemble(&loaded, &spec, &problem, start))?;
     solution.notes.splice(0..0, warnings);
+    if let Some(message) = conflict::message(&spec, &problem, &solution) {
+        solution.message = message;
+    }
     let report = Report { spec: &spec, problem: &problem, solution: &solution };
     if cli.json {
         report.print_json();
     } else {
         report.print_text();
     }
-    Ok(if solution.status == Status::Optimal { Outcome::Done } else { Outcome::Without })
+    Ok(match solution.status {
+        Status::Optimal => Outcome::Done,
+        Status::Interrupted => Outcome::Interrupted,
+        _ => Outcome::Without,
+    })
+}
+
+/// What the first Ctrl-C requests; the second ends the program at once.
+fn on_interrupt() -> Interrupt {
+    let interrupt = Interrupt::new();
+    let requested = interrupt.clone();
+    let set = ctrlc::set_handler(move || {
+        if requested.request() {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    });
+    // Without a handler Ctrl-C does what it always does: it ends the program.
+    set.map_or_else(|_| Interrupt::default(), |()| interrupt)
 }

@@ -50,5 +50,7 @@ pub(crate) const SURFACE: &[&str] = &["mode", "guard", "direction", "doc"];
 pub(crate) const SECTION: &[&str] = &["after", "before", "at", "coordinates", "embed", "start", "symmetry", "doc"];
 /// Of a measure.
 pub(crate) const MEASURE: &[&str] = &["expr", "unit", "doc"];
+/// The most maps that one gait can be made of: longer periods are not gaits that anybody could tell from chaos.
+pub const LONGEST_PERIOD: usize = 1000;
 /// Of `[problems.NAME]`.
-pub(crate) const PROBLEM: &[&str] = &["doc", "default", "maximize", "minimize", "vary", "subject_to"];
+pub(crate) const PROBLEM: &[&str] = &["doc", "default", "maximize", "minimize", "vary", "subject_to", "period"];

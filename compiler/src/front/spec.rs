@@ -170,6 +170,8 @@ pub(crate) struct Problem {
     pub(crate) objective: Option<(Sense, Equation)>,
     pub(crate) vary: Vec<Named<Interval>>,
     pub(crate) subject_to: Vec<Equation>,
+    /// How many maps make the gait.
+    pub(crate) period: usize,
 }
 
 impl Spec {

@@ -265,6 +265,8 @@ pub struct Problem {
     pub vary: Vec<Vary>,
     /// All must hold.
     pub constraints: Vec<Constraint>,
+    /// How many maps make the gait.
+    pub period: usize,
 }
 
 /// A parameter that an optimisation varies.

@@ -2,7 +2,7 @@
 
 use super::forms::{Keys, any_name, described, interval, named, new_name, scalar, strings, text};
 use super::quantities::unit;
-use crate::front::keys;
+use crate::front::keys::{self, LONGEST_PERIOD};
 use serde_json::{Value, json};
 
 pub(super) fn measures() -> Value {
@@ -41,6 +41,10 @@ pub(super) fn problems() -> Value {
         "subject_to" => Some(strings(
             text("Constraint."),
             "Constraints by `<=` or `>=`, as in `[\"spectral_radius <= 0.95\", \"peak_force <= 150 N\"]`.",
+        )),
+        "period" => Some(described(
+            json!({ "type": "integer", "minimum": 1, "maximum": LONGEST_PERIOD }),
+            "How many maps make the gait: 1 unless given.",
         )),
         _ => None,
     };

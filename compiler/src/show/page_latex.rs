@@ -183,6 +183,9 @@ fn problem(problem: &Problem) -> String {
         format!("\\text{{over}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
     }));
     lines.extend(problem.subject_to.iter().map(|c| format!("\\text{{subject to}} \\quad & {}", c.latex)));
+    if problem.period > 1 {
+        lines.push(format!("\\text{{for a gait of {} maps}} \\quad &", problem.period));
+    }
     body += &display(&lines);
     body
 }

@@ -172,5 +172,8 @@ fn problem(problem: &Problem) -> String {
     for constraint in &problem.subject_to {
         body += &formula("  subject to ", &constraint.text, 13);
     }
+    if problem.period > 1 {
+        body += &format!("  for a gait of {} maps\n", problem.period);
+    }
     body
 }

@@ -200,6 +200,8 @@ pub(super) struct Problem {
     pub(super) objective: Formula,
     pub(super) vary: Vec<Vary>,
     pub(super) subject_to: Vec<Formula>,
+    /// How many maps make the gait.
+    pub(super) period: usize,
 }
 
 /// A parameter to vary.

@@ -6,6 +6,10 @@ use crate::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, Sensitivity
 
 /// Smallest part of the way that continuation takes at once.
 const SHORTEST: f64 = 1.0 / 512.0;
+/// Most Newton steps to a gait of which only a guess is known ...
+const NEWTON_STEPS: usize = 50;
+/// ... and to the next one on the way: more would say that the way is too long.
+const CORRECTIONS: usize = 10;
 
 /// Why there is no gait.
 #[derive(Clone, Debug)]
@@ -16,11 +20,22 @@ pub(super) enum NoGait {
     NotConverged(f64),
     /// The coordinates repeat, another state does not: in words.
     Open(String),
+    /// Somebody asked to stop.
+    Interrupted,
     /// The problem is wrong.
     Wrong(ProblemError),
 }
 
-/// One map with the Jacobian in the coordinates.
+/// A gait to start from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Start {
+    /// All parameters.
+    pub(super) parameters: Vec<f64>,
+    /// Its section coordinates.
+    pub(super) section: Vec<f64>,
+}
+
+/// One map with the Jacobian in the coordinates; none where somebody asked to stop.
 pub(super) fn map(
     problem: &Problem<'_>,
     parameters: &[f64],
@@ -28,6 +43,9 @@ pub(super) fn map(
     accuracy: Accuracy,
     measures: bool,
 ) -> Result<MapResult, NoGait> {
+    if problem.settings.interrupt.requested() {
+        return Err(NoGait::Interrupted);
+    }
     let outcome = problem.map.evaluate(&MapRequest {
         coordinates: section,
         parameters,
@@ -46,8 +64,14 @@ pub(super) fn map(
 
 /// The gait near a guess.
 pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
+    within(problem, parameters, guess, NEWTON_STEPS)
+}
+
+/// The gait near a guess, in so many Newton steps from each of its starts.
+fn within(problem: &Problem<'_>, parameters: &[f64], guess: &[f64], steps: usize) -> Result<Vec<f64>, NoGait> {
     let request = GaitRequest {
         period: problem.period,
+        iteration_limit: steps,
         accuracy: problem.settings.accuracy,
         measures: false,
         tolerance: f64::max(1e-10, 10.0 * problem.settings.accuracy.relative),
@@ -62,19 +86,33 @@ pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> 
     }
 }
 
-/// Follows a gait from one set of parameters to another, halving the way on failure; predicts along the secant.
-pub(super) fn follow(problem: &Problem<'_>, from: (&[f64], &[f64]), to: &[f64]) -> Result<Vec<f64>, NoGait> {
-    let (start, gait) = from;
+/// Follows a gait from one set of parameters to another.
+pub(super) fn follow(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<Start, NoGait> {
+    let (last, failure) = follow_far(problem, from, to)?;
+    failure.map_or(Ok(last), Err)
+}
+
+/// Follows a gait from one set of parameters towards another as far as it goes, halving the way on failure; predicts along
+/// the secant. The last gait, and why it went no further.
+///
+/// # Errors
+/// Only for a problem that is wrong as stated.
+pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<(Start, Option<NoGait>), NoGait> {
     let between = |t: f64| -> Vec<f64> {
-        start.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
+        from.parameters.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
     };
     let (mut t, mut stride) = (0.0, 1.0);
-    let mut z = gait.to_vec();
+    let mut z = from.section.clone();
     let mut slope = vec![0.0; z.len()];
-    while t < 1.0 {
+    let mut failed = None;
+    while t < 1.0 && failed.is_none() {
+        if problem.settings.interrupt.requested() {
+            failed = Some(NoGait::Interrupted);
+            break;
+        }
         let next: f64 = f64::min(1.0, t + stride);
         let guess: Vec<f64> = z.iter().zip(&slope).map(|(z, s)| z + s * (next - t)).collect();
-        match near(problem, &between(next), &guess) {
+        match within(problem, &between(next), &guess, CORRECTIONS) {
             Ok(found) => {
                 slope = found.iter().zip(&z).map(|(a, b)| (a - b) / (next - t)).collect();
                 (z, t) = (found, next);
@@ -84,11 +122,10 @@ pub(super) fn follow(problem: &Problem<'_>, from: (&[f64], &[f64]), to: &[f64]) 
             Err(failure) => {
                 stride *= 0.5;
                 slope.fill(0.0);
-                if stride < SHORTEST {
-                    return Err(failure);
-                }
+                failed = (stride < SHORTEST).then_some(failure);
             }
         }
     }
-    Ok(z)
+    let parameters = if t > 0.0 { between(t) } else { from.parameters.clone() };
+    Ok((Start { parameters, section: z }, failed))
 }

@@ -3,7 +3,7 @@
 
 use super::jacobian_derivative::jacobian_derivative;
 use super::jury;
-use super::problem::{ConstraintKind, Objective, Value};
+use super::problem::{ConstraintKind, Value};
 use super::program::{Failure, Point, Program, Row};
 use nalgebra::{DMatrix, DVector};
 
@@ -91,12 +91,12 @@ impl Program<'_> {
     }
 
     pub(super) fn objective_gradient(&self, point: &Point) -> Result<DVector<f64>, Failure> {
-        let gradient = match &self.problem.objective {
-            Objective::Expression(e) => {
-                let value = self.value("the objective", e.as_ref(), &point.map, &point.parameters)?;
+        let gradient = match self.goal() {
+            Some((what, e)) => {
+                let value = self.value(what, e, &point.map, &point.parameters)?;
                 self.total(&value, point)
             }
-            Objective::SpectralRadius => {
+            None => {
                 let unit = self.variables.epigraph.unwrap_or(1.0);
                 DVector::from_fn(self.len(), |j, _| if Some(j) == self.variables.epigraph_at() { unit } else { 0.0 })
             }

@@ -1,5 +1,6 @@
 //! What is said to people: one message a verdict, with what to do next.
 
+use super::conflict::{Conflict, Reached};
 use super::gait::NoGait;
 use super::problem::{ConstraintKind, Objective, Problem};
 use super::program::{Point, Program, Row};
@@ -18,10 +19,12 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
             "the search converged, but a fresh simulation disagrees: {detail}; tighten the accuracy, or look at the gait \
              with `gait` before relying on it"
         ),
-        Status::InfeasibleLocally => format!(
+        Status::Infeasible | Status::InfeasibleLocally => format!(
             "no gait near here meets all constraints: {detail}; relax that constraint, widen the ranges, or try more starts"
         ),
         Status::NoGait => no_gait(detail),
+        Status::Undefined => undefined(detail),
+        Status::Interrupted => interrupted(detail),
         Status::Unbounded => {
             "the objective improves without limit; bound it with a constraint or narrow the ranges".to_owned()
         }
@@ -75,6 +78,75 @@ fn limits(problem: &Problem<'_>, solution: &Solution) -> Vec<String> {
         limits.push("the gait itself, which ends or branches here (a multiplier is 1)".to_owned());
     }
     limits
+}
+
+/// The message of a conflict, without units: shares of each bound.
+pub(super) fn conflict(problem: &Problem<'_>, conflict: &Conflict) -> String {
+    let name = |i: usize| problem.constraints.get(i).map_or("?", |c| c.name.as_str());
+    let names: Vec<String> = conflict.members.iter().map(|member| format!("`{}`", name(member.constraint))).collect();
+    let reach =
+        |member: &Reached| format!("`{}` misses by {:.2e} of its scale", name(member.constraint), -member.scaled);
+    let reached: Vec<String> = conflict.members.iter().map(reach).collect();
+    match names.as_slice() {
+        [one] => format!("{one} cannot hold in these ranges: at best it misses by {:.2e} of its scale", {
+            conflict.members.first().map_or(f64::NAN, |member| -member.scaled)
+        }),
+        _ => format!(
+            "{} cannot hold together in these ranges: while the others hold, {}",
+            listed(&names),
+            listed(&reached)
+        ),
+    }
+}
+
+/// `a`, `b` and `c`.
+fn listed(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [before @ .., last] => format!("{} and {last}", before.join(", ")),
+    }
+}
+
+/// The message of an objective that nothing changes.
+pub(super) fn constant(problem: &Problem<'_>) -> String {
+    let info = problem.map.info();
+    let names: Vec<String> = (problem.vary.iter())
+        .filter_map(|vary| info.parameters.get(vary.parameter))
+        .map(|quantity| format!("`{}`", quantity.name))
+        .collect();
+    format!(
+        "the objective does not change with {}: every gait that meets the constraints is as good as this one; \
+         optimise something else, or vary what it depends on",
+        listed(&names)
+    )
+}
+
+/// The message where a value is missing at a start.
+pub(super) fn undefined(what: &str) -> String {
+    format!(
+        "{what} is not defined where the search would begin (not a finite number there); begin elsewhere, narrow the ranges, \
+         or state it so that it has a value everywhere"
+    )
+}
+
+/// The message of an interrupted search; `detail` names violated constraints.
+fn interrupted(detail: &str) -> String {
+    if detail.is_empty() {
+        "interrupted: this is the best gait so far, not an optimum".to_owned()
+    } else {
+        format!("interrupted before any gait met all constraints; the one that came closest: {detail}")
+    }
+}
+
+/// Said behind the message of a search without an optimum when other starts did no better.
+pub(super) fn also_others(starts: usize) -> String {
+    format!(" ({starts} starts ended without an optimum)")
+}
+
+/// The note where the first guess led to no gait, at the given parameters or elsewhere in the ranges.
+pub(super) fn nowhere(places: usize) -> String {
+    format!("nor was there a gait near that guess at {places} other places in the ranges")
 }
 
 /// The message without a gait.
@@ -140,6 +212,7 @@ impl fmt::Display for NoGait {
                 write!(f, "Newton's method ends where a map still moves the start by {residual:.1e}")
             }
             Self::Open(text) => write!(f, "{text}"),
+            Self::Interrupted => write!(f, "interrupted"),
             Self::Wrong(error) => write!(f, "{error}"),
         }
     }

@@ -16,116 +16,177 @@
 //! is a [`Solution`] whose [`Status`] and message say what happened and what to do next.
 
 mod active_set;
+mod attempt;
 mod characteristic;
 mod confirm;
+mod conflict;
 mod gait;
+mod interrupt;
 mod jacobian_derivative;
 mod jury;
 mod kkt;
 mod linearisation;
 mod message;
+mod optima;
 mod problem;
 mod program;
 mod quasi_newton;
+mod restore;
 mod search;
+mod sobol;
 mod solution;
+mod standing;
 mod starts;
 mod subproblem;
+mod task;
 mod trade;
+mod unchanging;
 mod variables;
 mod verdict;
 
+pub use conflict::{Conflict, Reached};
+pub use interrupt::Interrupt;
+pub use optima::Optimum;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
 pub use solution::{Active, ActiveKind, Confirmation, Kink, Solution, Starts, Status};
 pub use trade::{Aim, Curve, Family, Gap, Origin, TradeOutcome, TradePoint, trade};
 
-use gait::NoGait;
-use program::{Failure, Program};
-use starts::Start;
-use verdict::Verdict;
+use attempt::{Attempt, attempt, goes_on};
+use conflict::Found;
+use gait::{NoGait, Start};
+use rayon::prelude::*;
+use restore::Blocked;
 
-/// Solves a problem from all its starts; the best confirmed optimum wins. Deterministic.
+/// Where no start leads to an optimum, at least this many are tried before that is said.
+const ENOUGH: usize = 5;
+/// From how many starts the searches must agree that constraints cannot hold together.
+const AGREEING: usize = 2;
+
+/// Solves a problem from all its starts, side by side; the best confirmed optimum wins. Deterministic: the result depends
+/// neither on the number of threads nor on which start ends first.
 ///
 /// # Errors
 /// When the problem is wrong as stated.
 pub fn solve(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
     problem.validate()?;
+    match problem.settings.threads {
+        0 => from_all_starts(problem),
+        threads => {
+            let hint = "the system refuses to start so many; give fewer";
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.map_err(|_| ProblemError::Setting { setting: "threads", hint })?.install(|| from_all_starts(problem))
+        }
+    }
+}
+
+fn from_all_starts(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
     let (parameters, moved) = starts::projected(problem);
     let first = match starts::first(problem, &parameters) {
         Ok(first) => first,
         Err(NoGait::Wrong(error)) => return Err(error),
         Err(failure) => {
             let mut solution = verdict::no_gait(problem, parameters, &failure).solution;
+            if matches!(failure, NoGait::Interrupted) {
+                solution.status = Status::Interrupted;
+                solution.message = "interrupted before any gait was found".to_owned();
+            } else {
+                solution.notes.push(message::nowhere(starts::RESCUES));
+            }
             solution.starts.run = 1;
             return Ok(solution);
         }
     };
-    let mut best = run(problem, &first, 0)?;
-    let mut converged = usize::from(best.solution.status == Status::Optimal);
-    for number in 1..problem.settings.starts {
-        let verdict = run(problem, &first, number)?;
-        converged += usize::from(verdict.solution.status == Status::Optimal);
-        if better(problem, &verdict, &best) {
-            best = verdict;
+    let asked = problem.settings.starts;
+    let mut attempts = run(problem, &first, 0..asked)?;
+    let interrupted = || problem.settings.interrupt.requested();
+    let no_optimum = |attempts: &[(usize, Attempt)]| attempts.iter().all(|(_, a)| goes_on(a.verdict.solution.status));
+    if no_optimum(&attempts) && !interrupted() {
+        attempts.extend(run(problem, &first, asked..ENOUGH)?);
+    }
+    let mut conflict = None;
+    if no_optimum(&attempts) && !interrupted() {
+        let blocked: Vec<Blocked> = attempts.iter().filter_map(|(_, attempt)| attempt.blocked.clone()).collect();
+        match conflict::find(problem, &blocked)? {
+            Found::Conflict(found) => conflict = Some(found),
+            Found::Feasible(gait) => {
+                let verdict = attempt::from(problem, &gait)?;
+                attempts.push((attempts.len(), Attempt { verdict, blocked: None }));
+            }
+            Found::Nothing => {}
         }
     }
-    let mut solution = best.solution;
-    solution.starts = Starts { run: problem.settings.starts, converged };
+    let mut solution = chosen(problem, attempts, conflict.filter(|_| !interrupted()));
+    if solution.status == Status::Optimal
+        && solution.active.is_empty()
+        && unchanging::unchanging(problem, &first, &solution)
+    {
+        solution.message = message::constant(problem);
+    }
     solution.notes.extend(start_notes(problem, &moved, first.parameters != parameters));
     Ok(solution)
 }
 
-/// One start, a pure function of its number.
-fn run(problem: &Problem<'_>, first: &Start, number: usize) -> Result<Verdict, ProblemError> {
-    let further = match number {
-        0 => Ok(first.clone()),
-        _ => starts::further(problem, first, number),
+/// Runs starts side by side, in the order of their numbers; those that an interruption came before are left out (but
+/// never the first).
+fn run(
+    problem: &Problem<'_>,
+    first: &Start,
+    numbers: std::ops::Range<usize>,
+) -> Result<Vec<(usize, Attempt)>, ProblemError> {
+    let one = |number: usize| -> Option<Result<(usize, Attempt), ProblemError>> {
+        let skipped = number > 0 && problem.settings.interrupt.requested();
+        (!skipped).then(|| Ok((number, attempt(problem, first, number)?)))
     };
-    let start = match further {
-        Ok(start) => start,
-        Err(NoGait::Wrong(error)) => return Err(error),
-        Err(failure) => return Ok(verdict::no_gait(problem, first.parameters.clone(), &failure)),
-    };
-    match local(problem, &start) {
-        Ok(verdict) => Ok(verdict),
-        Err(Failure::Wrong(error)) => Err(error),
-        Err(Failure::Stopped(stop)) => Ok(verdict::no_gait(problem, start.parameters, &NoGait::Stopped(stop))),
-        Err(Failure::NotFinite(what)) => Ok(verdict::undefined(&start, &what)),
-        Err(Failure::NoDerivative) => Ok(verdict::undefined(&start, "the derivative of the Jacobian")),
+    if numbers.len() == 1 {
+        numbers.filter_map(one).collect()
+    } else {
+        numbers.into_par_iter().filter_map(one).collect()
     }
 }
 
-/// The search from one gait, judged.
-fn local(problem: &Problem<'_>, start: &Start) -> Result<Verdict, Failure> {
-    let program = Program::new(problem, &start.parameters, &start.section)?;
-    let point = verdict::starting_point(&program, &start.parameters, &start.section)?;
-    let ended = search::search(&program, point)?;
-    verdict::verdict(&program, ended).map_err(Failure::Wrong)
-}
-
-/// Whether a verdict is better: first by status, then by objective (for violated constraints: by violation).
-fn better(problem: &Problem<'_>, a: &Verdict, b: &Verdict) -> bool {
-    let rank = |status| match status {
-        Status::Optimal => 0,
-        Status::Unbounded => 1,
-        Status::Unconfirmed => 2,
-        Status::IterationLimit | Status::Stalled | Status::SubproblemFailed => 3,
-        Status::InfeasibleLocally => 4,
-        Status::NoGait => 5,
+/// The best of all attempts, with what the others say.
+fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: Option<Conflict>) -> Solution {
+    let interrupted = attempts.iter().any(|(_, attempt)| attempt.verdict.solution.status == Status::Interrupted)
+        || (attempts.len() < problem.settings.starts);
+    let run = attempts.len();
+    attempts.sort_by(|(i, a), (k, b)| {
+        let order = if interrupted { attempt::order_so_far } else { attempt::order };
+        order(problem, &a.verdict, &b.verdict).then(i.cmp(k))
+    });
+    let optima = optima::distinct(problem, attempts.iter().map(|(_, attempt)| &attempt.verdict));
+    let converged = optima.iter().map(|optimum| optimum.starts).sum();
+    let mut attempts = attempts.into_iter();
+    let Some((number, Attempt { verdict, .. })) = attempts.next() else {
+        // Start 0 always runs.
+        return verdict::no_gait(problem, problem.parameters.clone(), &NoGait::Interrupted).solution;
     };
-    let (x, y) = (rank(a.solution.status), rank(b.solution.status));
-    if x != y {
-        return x < y;
+    let met = attempt::met(&verdict);
+    let mut solution = verdict.solution;
+    if interrupted {
+        if met && solution.status != Status::Interrupted {
+            solution.message =
+                message::message(problem, &Solution { status: Status::Interrupted, ..solution.clone() }, "");
+        }
+        solution.status = Status::Interrupted;
     }
-    if x >= 3 {
-        return a.violation < b.violation;
+    if let Some(conflict) = conflict {
+        let agree = conflict.agreeing >= AGREEING;
+        solution.status = if agree { Status::Infeasible } else { Status::InfeasibleLocally };
+        solution.message = message::conflict(problem, &conflict);
+        solution.conflict = Some(conflict);
+    } else if goes_on(solution.status) && run > 1 {
+        solution.message.push_str(&message::also_others(run));
     }
-    match problem.sense {
-        Sense::Maximize => a.solution.objective > b.solution.objective,
-        Sense::Minimize => a.solution.objective < b.solution.objective,
+    if solution.status == Status::Optimal && number >= problem.settings.starts {
+        solution.notes.push(
+            "the search from the given start led to no optimum; this one was found from another start".to_owned(),
+        );
     }
+    solution.optima = optima;
+    solution.starts = Starts { run, converged };
+    solution
 }
 
 fn start_notes(problem: &Problem<'_>, moved: &[usize], elsewhere: bool) -> Vec<String> {

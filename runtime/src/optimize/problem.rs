@@ -3,6 +3,7 @@
 //! minimise or maximise F(m(z, p), p) over the varied parameters and the section coordinates z, subject to P(z; p) = z,
 //! lower <= p_j <= upper, margins >= 0 and `spectral_radius <= r`.
 
+use super::interrupt::Interrupt;
 use crate::return_map::{Accuracy, RequestError, ReturnMap};
 use thiserror::Error;
 
@@ -99,8 +100,12 @@ pub struct Settings {
     pub starts: usize,
     /// Chooses the further starts.
     pub seed: u64,
+    /// How many starts run side by side; 0 for one a core. The result does not depend on it.
+    pub threads: usize,
     /// First radius of the trust region, as a fraction of the ranges.
     pub trust_radius: f64,
+    /// Ends the optimisation early, with the best gait so far.
+    pub interrupt: Interrupt,
 }
 
 impl Default for Settings {
@@ -112,7 +117,9 @@ impl Default for Settings {
             max_iterations: 200,
             starts: 1,
             seed: 0,
+            threads: 0,
             trust_radius: 0.25,
+            interrupt: Interrupt::default(),
         }
     }
 }
@@ -309,6 +316,7 @@ impl Settings {
             ("trust_radius", tolerance(self.trust_radius), "must lie between 0 and 1, such as 0.25"),
             ("max_iterations", self.max_iterations > 0, "must be at least 1"),
             ("starts", (1..=100_000).contains(&self.starts), "must be between 1 and 100000"),
+            ("threads", self.threads <= 1024, "must be at most 1024"),
         ];
         match rules.into_iter().find(|(_, holds, _)| !holds) {
             Some((setting, _, hint)) => Err(ProblemError::Setting { setting, hint }),

@@ -5,7 +5,9 @@
 
 use super::characteristic::Characteristic;
 use super::jury;
+use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
+use super::task::{Goal, Task};
 use super::variables::Variables;
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
@@ -57,6 +59,8 @@ pub(super) struct Point {
 /// The nonlinear program.
 pub(super) struct Program<'a> {
     pub(super) problem: &'a Problem<'a>,
+    /// What the search is after.
+    pub(super) task: Task,
     /// Parameters at the start; those not varied keep their values.
     pub(super) base: Vec<f64>,
     pub(super) variables: Variables,
@@ -69,12 +73,18 @@ pub(super) struct Program<'a> {
 
 impl<'a> Program<'a> {
     /// The program around a gait: scales of unknowns and rows are fixed here and never change.
-    pub(super) fn new(problem: &'a Problem<'a>, parameters: &[f64], section: &[f64]) -> Result<Self, Failure> {
+    pub(super) fn new(
+        problem: &'a Problem<'a>,
+        task: Task,
+        parameters: &[f64],
+        section: &[f64],
+    ) -> Result<Self, Failure> {
         let free = Variables::free(&problem.vary);
         let nominal = vec![1.0; section.len()];
-        let rows = rows(problem);
+        let rows = rows(problem, &task);
         let mut program = Self {
             problem,
+            task,
             base: parameters.to_vec(),
             variables: Variables { free, nominal, epigraph: None },
             rows,
@@ -83,7 +93,7 @@ impl<'a> Program<'a> {
         };
         let map = program.map(parameters, section)?;
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
-        if matches!(problem.objective, Objective::SpectralRadius) {
+        if program.task.minimises_radius(problem) {
             let d = section.len();
             program.variables.epigraph =
                 Some(spectral_radius(&multipliers(&map.jacobian.columns(0, d).into_owned())).max(1e-3));
@@ -125,7 +135,40 @@ impl<'a> Program<'a> {
 
     /// +1 when minimising, -1 when maximising.
     pub(super) fn sign(&self) -> f64 {
-        if self.problem.sense == Sense::Minimize { 1.0 } else { -1.0 }
+        match self.task.goal {
+            Goal::Asked if self.problem.sense == Sense::Minimize => 1.0,
+            Goal::Push(_) if self.task.minimises_radius(self.problem) => 1.0,
+            Goal::Asked | Goal::Push(_) => -1.0,
+        }
+    }
+
+    /// The function that is optimised, and its name; `None` for the spectral radius.
+    pub(super) fn goal(&self) -> Option<(&str, &dyn Expression)> {
+        match self.task.goal {
+            Goal::Asked => match &self.problem.objective {
+                Objective::Expression(e) => Some(("the objective", e.as_ref())),
+                Objective::SpectralRadius => None,
+            },
+            Goal::Push(i) => self.problem.constraints.get(i).and_then(|constraint| match &constraint.kind {
+                ConstraintKind::Margin { margin, .. } => Some((constraint.name.as_str(), margin.as_ref())),
+                ConstraintKind::SpectralRadius { .. } => None,
+            }),
+        }
+    }
+
+    /// Whether the search has got what it is after before any optimum: the constraint that it pushes holds.
+    pub(super) fn reached(&self, point: &Point) -> bool {
+        let Goal::Push(i) = self.task.goal else { return false };
+        let settings = &self.problem.settings;
+        let holds = match self.goal() {
+            Some(_) => point.f <= 0.0,
+            None => self.radius(Some(i), &point.u, &point.map, &point.parameters).is_ok_and(|bound| {
+                let d = point.section.len();
+                let multipliers = multipliers(&point.map.jacobian.columns(0, d).into_owned());
+                spectral_radius(&multipliers) <= bound.value * self.reference(Some(i))
+            }),
+        };
+        holds && infeasibility(point) <= 10.0 * settings.attainable_feasibility()
     }
 
     /// The return map with the sensitivities that the program needs.
@@ -182,12 +225,13 @@ impl<'a> Program<'a> {
         let f = self.sign() * self.objective(u, &map, &parameters)? / self.objective_scale;
         let h = DVector::from_fn(section.len(), |i, _| (map.coordinates[i] - section[i]) / self.variables.nominal[i]);
         let mut c = Vec::with_capacity(self.rows.len());
-        if matches!(self.problem.objective, Objective::SpectralRadius) {
+        if self.task.minimises_radius(self.problem) {
             let radius = self.radius(None, u, &map, &parameters)?.value;
             c.extend(jury::rows(&self.characteristic(None, &map).coefficients, radius).iter().map(|row| row.value));
         }
         for (i, constraint) in self.problem.constraints.iter().enumerate() {
             match &constraint.kind {
+                _ if !self.task.keeps(i) => {}
                 ConstraintKind::Margin { margin, scale } => {
                     c.push(self.value(&constraint.name, margin.as_ref(), &map, &parameters)?.value / scale);
                 }
@@ -203,9 +247,9 @@ impl<'a> Program<'a> {
 
     /// Objective in SI units.
     fn objective(&self, u: &DVector<f64>, map: &MapResult, parameters: &[f64]) -> Result<f64, Failure> {
-        match &self.problem.objective {
-            Objective::Expression(e) => Ok(self.value("the objective", e.as_ref(), map, parameters)?.value),
-            Objective::SpectralRadius => {
+        match self.goal() {
+            Some((what, e)) => Ok(self.value(what, e, map, parameters)?.value),
+            None => {
                 let unit = self.variables.epigraph.unwrap_or(1.0);
                 Ok(self.variables.epigraph_at().map_or(0.0, |at| u[at] * unit))
             }
@@ -273,14 +317,15 @@ impl<'a> Program<'a> {
 }
 
 /// Rows in the order in which `evaluate` writes them.
-fn rows(problem: &Problem<'_>) -> Vec<Row> {
+fn rows(problem: &Problem<'_>, task: &Task) -> Vec<Row> {
     let jury = |of| (0..jury::count(problem.start.len())).map(move |which| Row::Jury(of, which));
     let mut rows = Vec::new();
-    if matches!(problem.objective, Objective::SpectralRadius) {
+    if task.minimises_radius(problem) {
         rows.extend(jury(None));
     }
     for (i, constraint) in problem.constraints.iter().enumerate() {
         match constraint.kind {
+            _ if !task.keeps(i) => {}
             ConstraintKind::Margin { .. } => rows.push(Row::Margin(i)),
             ConstraintKind::SpectralRadius { .. } => rows.extend(jury(Some(i))),
         }

@@ -6,6 +6,7 @@
 //! The method: R. Fletcher, *Practical Methods of Optimization*, 14.4; penalty steering after Byrd, Nocedal and Waltz.
 
 use super::active_set::refine;
+use super::interrupt::Best;
 use super::kkt::{Kkt, infeasibility, kkt, lagrangian_gradient};
 use super::linearisation::Linearisation;
 use super::problem::ProblemError;
@@ -45,6 +46,10 @@ pub(super) enum End {
     Stalled,
     /// Clarabel's words.
     Subproblem(String),
+    /// What the search was after holds, before any optimum.
+    Reached,
+    /// Somebody asked to stop; the point is the best one so far.
+    Interrupted,
 }
 
 /// Where a search ended.
@@ -95,7 +100,13 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
     };
     let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
     let mut iterations = 0;
+    let mut best = Best::new(&settings.interrupt);
     let end = loop {
+        best.remember(&search.point, &search.lin);
+        if settings.interrupt.requested() {
+            best.recall(&mut search.point, &mut search.lin);
+            break End::Interrupted;
+        }
         if iterations == settings.max_iterations {
             break search.verdict(&multipliers, End::IterationLimit);
         }
@@ -129,6 +140,9 @@ impl Search<'_, '_> {
 
     fn iterate(&mut self, multipliers: &mut Multipliers) -> Result<Progress, ProblemError> {
         let settings = &self.program.problem.settings;
+        if self.program.reached(&self.point) {
+            return Ok(Progress::Ended(End::Reached));
+        }
         if self.point.f < UNBOUNDED && infeasibility(&self.point) < 1e-4 {
             return Ok(Progress::Ended(End::Unbounded));
         }

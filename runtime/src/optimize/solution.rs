@@ -1,5 +1,7 @@
 //! What an optimisation ended with: a verdict, the gait, and what limits it.
 
+use super::conflict::Conflict;
+use super::optima::Optimum;
 use nalgebra::Complex;
 
 /// The verdict. Everything but [`Status::Optimal`] means: no optimum to rely on; the message says what to do next.
@@ -9,8 +11,14 @@ pub enum Status {
     Optimal,
     /// The search converged, but a fresh simulation disagrees.
     Unconfirmed,
+    /// Constraints cannot hold together: searches from several starts agree on which, and how far they get.
+    Infeasible,
     /// The search ended where no small change brings the violated constraints any closer to holding.
     InfeasibleLocally,
+    /// Objective or constraints have no value where the search would begin.
+    Undefined,
+    /// Somebody asked to stop: the best gait so far, not an optimum.
+    Interrupted,
     /// No periodic gait was found to start from.
     NoGait,
     /// The objective improves without limit.
@@ -44,7 +52,8 @@ pub struct Active {
     pub multiplier: f64,
 }
 
-/// How many starts were run and how many of them gave a confirmed optimum.
+/// How many starts were run and how many of them gave a confirmed optimum. Where none of those asked for does, a few more
+/// are run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Starts {
     /// Started.
@@ -108,6 +117,10 @@ pub struct Solution {
     pub kkt_residual: f64,
     /// Starts.
     pub starts: Starts,
+    /// The distinct optima that the starts found, best first.
+    pub optima: Vec<Optimum>,
+    /// What cannot hold together, where the problem is infeasible.
+    pub conflict: Option<Conflict>,
     /// The fresh simulation; `None` when the search did not converge.
     pub confirmation: Option<Confirmation>,
 }

@@ -1,14 +1,13 @@
 //! From the end of a search to the verdict: polished gait, confirmation, active constraints with shadow prices, kink.
 
 use super::confirm::{self, Claim};
-use super::gait::{self, NoGait};
+use super::gait::{self, NoGait, Start};
 use super::kkt::{infeasibility, kkt};
 use super::message;
 use super::problem::{Constraint, ConstraintKind, Objective, Problem, ProblemError};
 use super::program::{Failure, Point, Program, Row};
 use super::search::{End, Ended};
 use super::solution::{Active, ActiveKind, Kink, Solution, Starts, Status};
-use super::starts::Start;
 use crate::orbit;
 use nalgebra::{Complex, DVector};
 
@@ -55,6 +54,8 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         iterations: ended.iterations,
         kkt_residual: residuals.residual(),
         starts: Starts::default(),
+        optima: Vec::new(),
+        conflict: None,
         confirmation: None,
     };
     judge(program, &ended, &mut solution);
@@ -96,6 +97,9 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     solution.status = match &ended.end {
         End::Converged | End::Acceptable => Status::Optimal,
         End::Infeasible => Status::InfeasibleLocally,
+        End::Interrupted => Status::Interrupted,
+        // Only a step on the way to a problem ends so, and it is not judged.
+        End::Reached => Status::Stalled,
         End::Unbounded => Status::Unbounded,
         End::IterationLimit => Status::IterationLimit,
         End::Stalled => Status::Stalled,
@@ -222,8 +226,7 @@ pub(super) fn no_gait(problem: &Problem<'_>, parameters: Vec<f64>, failure: &NoG
 
 /// The verdict when something is not defined at the start itself.
 pub(super) fn undefined(start: &Start, what: &str) -> Verdict {
-    let message = format!("{what} is not defined at the start; start elsewhere, or narrow the ranges");
-    without_values(Status::Stalled, message, start.parameters.clone(), start.section.clone())
+    without_values(Status::Undefined, message::undefined(what), start.parameters.clone(), start.section.clone())
 }
 
 fn without_values(status: Status, message: String, parameters: Vec<f64>, section: Vec<f64>) -> Verdict {
@@ -242,6 +245,8 @@ fn without_values(status: Status, message: String, parameters: Vec<f64>, section
         iterations: 0,
         kkt_residual: f64::NAN,
         starts: Starts::default(),
+        optima: Vec::new(),
+        conflict: None,
         confirmation: None,
     };
     Verdict { solution, violation: f64::INFINITY }

@@ -16,9 +16,6 @@ pub(super) struct Report<'a> {
 impl Report<'_> {
     pub(super) fn print_json(&self) {
         let s = self.solution;
-        let named = |names: Vec<&String>, values: &[f64]| -> Map<String, Value> {
-            names.into_iter().zip(values).map(|(name, v)| (name.clone(), json!(v))).collect()
-        };
         output::json(&json!({
             "model": self.spec.name,
             "problem": self.problem.name,
@@ -26,12 +23,12 @@ impl Report<'_> {
             "message": s.message,
             "notes": s.notes,
             "objective": { "name": self.problem.objective_text, "value": s.objective },
-            "parameters": named(self.spec.parameters.iter().map(|p| &p.name).collect(), &s.parameters),
-            "section": named(self.coordinate_names(), &s.section),
+            "parameters": self.named_parameters(&s.parameters),
+            "section": self.named_section(&s.section),
             "spectral_radius": s.spectral_radius,
             "multipliers": s.multipliers.iter().map(|m| [m.re, m.im]).collect::<Vec<_>>(),
             "kink": s.kink.map(|k| json!({ "multiplier": [k.multiplier.re, k.multiplier.im], "gap": k.gap })),
-            "measures": named(self.spec.measures.iter().map(|m| &m.name).collect(), &s.measures),
+            "measures": named(self.spec.measures.iter().map(|m| &m.name), &s.measures),
             "active": s.active.iter().map(|a| json!({
                 "constraint": self.constraint(a.kind),
                 "multiplier": a.multiplier,
@@ -39,6 +36,9 @@ impl Report<'_> {
             "iterations": s.iterations,
             "kkt_residual": s.kkt_residual,
             "starts": { "run": s.starts.run, "converged": s.starts.converged },
+            "optima": self.optima_json(),
+            "conflict": self.conflict_json(),
+            "reached": self.reached_json(),
             "confirmation": s.confirmation.as_ref().map(|c| json!({
                 "residual": c.residual,
                 "measures": c.measures,
@@ -47,6 +47,14 @@ impl Report<'_> {
                 "remaining": c.remaining,
             })),
         }));
+    }
+
+    pub(super) fn named_parameters(&self, values: &[f64]) -> Map<String, Value> {
+        named(self.spec.parameters.iter().map(|p| &p.name), values)
+    }
+
+    pub(super) fn named_section(&self, values: &[f64]) -> Map<String, Value> {
+        named(self.coordinate_names().into_iter(), values)
     }
 
     fn coordinate_names(&self) -> Vec<&String> {
@@ -91,13 +99,15 @@ impl Report<'_> {
         let measures = self.spec.measures.iter().zip(&s.measures);
         gait.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
         text += &format!("\n{}{}", output::table(&["gait", "value"], gait), output::measures_hint(self.spec));
+        text += &self.optima_text();
         text + &format!(
             "\n{} iterations, KKT residual {:.0e}, {} of {} starts converged\n",
             s.iterations, s.kkt_residual, s.starts.converged, s.starts.run
         )
     }
 
-    fn varied(&self) -> Vec<Vec<String>> {
+    /// Name, value and range of each varied parameter.
+    pub(super) fn varied(&self) -> Vec<Vec<String>> {
         let row = |v: &gaitc_compiler::ir::Vary| {
             let parameter = &self.spec.parameters[v.parameter];
             let range = format!(
@@ -149,7 +159,7 @@ impl Report<'_> {
 
     /// The unit in which people think of a constraint: that behind its bound, else that of a measure or parameter of
     /// the same dimension in it.
-    fn unit<'a>(&'a self, constraint: &'a Constraint) -> Option<&'a str> {
+    pub(super) fn unit<'a>(&'a self, constraint: &'a Constraint) -> Option<&'a str> {
         if let Some(unit) = &constraint.unit {
             return Some(unit);
         }
@@ -169,12 +179,16 @@ impl Report<'_> {
     }
 
     /// A value of the objective: in the unit of the measure that it is, else in SI units.
-    fn objective_quantity(&self, value: f64) -> String {
+    pub(super) fn objective_quantity(&self, value: f64) -> String {
         match self.spec.measures.iter().find(|m| m.name == self.problem.objective_text.trim()) {
             Some(measure) => format_quantity(value, &measure.unit),
             None => format_si(value, self.problem.objective_dimension),
         }
     }
+}
+
+fn named<'n>(names: impl Iterator<Item = &'n String>, values: &[f64]) -> Map<String, Value> {
+    names.zip(values).map(|(name, value)| (name.clone(), json!(value))).collect()
 }
 
 /// One of a unit, as it stands behind `per`.
@@ -191,6 +205,9 @@ pub(super) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",
+        Status::Infeasible => "infeasible",
+        Status::Undefined => "undefined",
+        Status::Interrupted => "interrupted",
         Status::InfeasibleLocally => "infeasible_locally",
         Status::NoGait => "no_gait",
         Status::Unbounded => "unbounded",

@@ -26,6 +26,10 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
     for text in &args.subject_to {
         problem.constraints.push(parse_constraint(&mut spec, text)?);
     }
+    if let Some(period) = args.period {
+        inputs::period(period)?;
+        problem.period = period;
+    }
     if problem.vary.is_empty() {
         return Err(InputError(
             "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'"
@@ -71,6 +75,7 @@ fn fresh(spec: &mut Model, sense: Sense, text: &str) -> Result<Problem, InputErr
         objective_dimension,
         vary: Vec::new(),
         constraints: Vec::new(),
+        period: 1,
     })
 }
 

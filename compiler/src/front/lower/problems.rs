@@ -28,7 +28,7 @@ impl Lowering<'_> {
     }
 
     fn problem(&mut self, item: &Named<Problem>) -> Option<ir::Problem> {
-        let Problem { doc, default, objective, vary, subject_to } = &item.value;
+        let Problem { doc, default, objective, vary, subject_to, period } = &item.value;
         let lowered = objective.as_ref().and_then(|(sense, equation)| {
             let lowered = self.objective(equation)?;
             (*sense == ir::Sense::Minimize || self.can_grow(equation, lowered.0)).then_some(lowered)
@@ -46,6 +46,7 @@ impl Lowering<'_> {
             objective_dimension,
             vary: vary.into_iter().collect::<Option<_>>()?,
             constraints: constraints.into_iter().collect::<Option<_>>()?,
+            period: *period,
         })
     }
 

@@ -4,7 +4,7 @@ use super::fields::{Fields, Sink, constraint, equation, interval, strings};
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
-use crate::front::keys;
+use crate::front::keys::{self, LONGEST_PERIOD};
 use crate::front::parser::shortened;
 use crate::front::spec::{Equation, Interval, Measure, Named, Problem};
 use crate::ir::Sense;
@@ -50,6 +50,7 @@ pub(super) fn problems(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Prob
             objective: objective(&fields, sink),
             vary: vary(&fields, sink),
             subject_to: subject_to.into_iter().map(|text| constraint(text, sink)).collect(),
+            period: period(&fields, sink),
         };
         problems.push(Named { name: entry.key.clone(), span: entry.key_span, value });
     }
@@ -63,6 +64,26 @@ fn default(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Option<Span> {
         _ => {
             sink.wrong_type(&entry.value, "default", "true or false", "default = true");
             None
+        }
+    }
+}
+
+/// How many maps make the gait; one where nothing is said, or nothing that can be used.
+fn period(fields: &Fields<'_>, sink: &mut Sink<'_>) -> usize {
+    let Some(entry) = fields.get("period") else { return 1 };
+    match &entry.value.kind {
+        ValueKind::Integer(period, _) => {
+            let known = period.and_then(|period| usize::try_from(period).ok());
+            known.filter(|period| (1..=LONGEST_PERIOD).contains(period)).unwrap_or_else(|| {
+                let message = "a gait cannot be made of this many maps";
+                let help = format!("write a whole number from 1 to {LONGEST_PERIOD}");
+                sink.push(Diagnostic::error(Code::BadValue, message).at(entry.value.span, "").help(help));
+                1
+            })
+        }
+        _ => {
+            sink.wrong_type(&entry.value, "period", "a whole number", "period = 2");
+            1
         }
     }
 }

@@ -1,0 +1,205 @@
+//! Problems that are nonsense, infeasible, unbounded, or interrupted: each ends in the right message, through the program.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
+
+mod common;
+
+use common::{json, number, text};
+
+/// Flags behind `optimize prescribed_length`, exit code, status in the JSON, and what the message has to say.
+type Case = (&'static [&'static str], i32, &'static str, &'static [&'static str]);
+
+const PSI: &str = "psi=5..45 deg";
+const FAST: [&str; 4] = ["--maximize", "climb_speed", "--vary", PSI];
+
+const CASES: &[Case] = &[
+    // Wrong as stated.
+    (&["--maximize", "3 [m]", "--vary", PSI], 1, "error", &["`3 [m]` does not depend on anything that varies", "--vary"]),
+    (&["--maximize", "climb_speed", "--vary", "psi=45..5 deg"], 1, "error", &["lower bound", "exchange the bounds"]),
+    (&["--maximize", "climb_speed", "--vary", "psi=5..45 kg"], 1, "error", &["must be dimensionless, not kg"]),
+    (&["--maximize", "climb_speed", "--vary", "pis=5..45 deg"], 1, "error", &["`pis`", "did you mean `psi`?"]),
+    (&["--maximize", "climb_sped", "--vary", PSI], 1, "error", &["`climb_sped`", "did you mean `climb_speed`?"]),
+    (&["--maximize", "climb_speed + mean_power", "--vary", PSI], 1, "error", &["m/s", "W"]),
+    (&[FAST[0], FAST[1], FAST[2], FAST[3], "--subject-to", "peak_force <= 2 m"], 1, "error", &["peak_force", "m"]),
+    (&[FAST[0], FAST[1], FAST[2], FAST[3], "--subject-to", "spectral_radius <= 0"], 1, "error", &["above 0", "0.95"]),
+    (
+        &[FAST[0], FAST[1], FAST[2], FAST[3], "--subject-to", "spectral_radius <= l_s/l_b - 1"],
+        1,
+        "error",
+        &["bound -0.74", "not positive"],
+    ),
+    (&[FAST[0], FAST[1], FAST[2], FAST[3], "--period", "0"], 1, "error", &["--period 0", "from 1 to 1000"]),
+    (&[FAST[0], FAST[1], FAST[2], FAST[3], "--threads", "0"], 1, "error", &["--threads 0", "from 1 to 1024"]),
+    (&[FAST[0], FAST[1], FAST[2], FAST[3], "--starts", "200000"], 1, "error", &["from 1 to 100000"]),
+    // Constraints in which nothing varies.
+    (
+        &[FAST[0], FAST[1], FAST[2], FAST[3], "--subject-to", "omega <= 3 rad/s"],
+        1,
+        "error",
+        &["`omega <= 3 rad/s` never holds: nothing in it varies, `omega` is 18.85 rad/s", "--vary"],
+    ),
+    (
+        &["--maximize", "climb_speed", "--vary", "omega=15..20 rad/s", "--subject-to", "psi >= 3 rad"],
+        1,
+        "error",
+        &["`psi >= 3 rad` never holds"],
+    ),
+    // Nothing to be gained.
+    (
+        &["--maximize", "stride_frequency", "--vary", PSI],
+        0,
+        "optimal",
+        &["the objective does not change with `psi`: every gait that meets the constraints is as good"],
+    ),
+    (&["--maximize", "1 [m]/psi", "--vary", "psi=0..45 deg"], 2, "unbounded", &["improves without limit", "constraint"]),
+    // No value.
+    (&["--maximize", "sqrt(psi - 6)", "--vary", PSI], 2, "undefined", &["the objective is not defined", "narrow"]),
+    // Infeasible, by one constraint and by two of three.
+    (
+        &[FAST[0], FAST[1], FAST[2], FAST[3], "--subject-to", "climb_speed >= 2 m/s"],
+        2,
+        "infeasible",
+        &["`climb_speed >= 2 m/s` cannot hold for psi in 5 .. 45 deg", "`climb_speed` is at most 0.7768 m/s", "relax"],
+    ),
+    (
+        &[FAST[0], FAST[1], FAST[2], FAST[3], "--subject-to", "spectral_radius <= 0.2"],
+        2,
+        "infeasible",
+        &["`spectral_radius <= 0.2` cannot hold", "`spectral_radius` is at least 0.55"],
+    ),
+    (
+        &[
+            FAST[0],
+            FAST[1],
+            FAST[2],
+            FAST[3],
+            "--subject-to",
+            "climb_speed >= 0.75 m/s",
+            "--subject-to",
+            "mean_power <= 40 W",
+            "--subject-to",
+            "spectral_radius <= 0.9",
+        ],
+        2,
+        "infeasible",
+        &[
+            "`climb_speed >= 0.75 m/s` and `spectral_radius <= 0.9` cannot hold together for psi in 5 .. 45 deg",
+            "`climb_speed` is at most",
+            "m/s where `spectral_radius <= 0.9` holds",
+            "`spectral_radius` is at least",
+        ],
+    ),
+];
+
+#[test]
+fn trouble_ends_in_the_right_message() {
+    for (flags, code, status, parts) in CASES {
+        let args = [&["optimize", "prescribed_length"][..], flags].concat();
+        let (found, value) = json(&args);
+        assert_eq!((found, value["status"].as_str()), (*code, Some(*status)), "{args:?}: {value:#}");
+        let message = value["message"].as_str().unwrap();
+        for part in *parts {
+            assert!(message.contains(part), "{args:?} does not say {part:?}:\n{message}");
+        }
+    }
+}
+
+#[test]
+fn a_constraint_that_always_holds_is_pointed_out() {
+    let args = [&["optimize", "prescribed_length"][..], &FAST, &["--subject-to", "omega <= 30 rad/s"]].concat();
+    let (code, out, _) = text(&args);
+    assert_eq!(code, 0, "{out}");
+    assert!(out.contains("note: `omega <= 30 rad/s` always holds: nothing in it varies"), "{out}");
+}
+
+#[test]
+fn a_conflict_is_json_in_si_units() {
+    let constraints = ["--subject-to", "climb_speed >= 75 cm/s", "--subject-to", "spectral_radius <= 0.9"];
+    let (code, value) = json(&[&["optimize", "prescribed_length"][..], &FAST, &constraints].concat());
+    assert_eq!(code, 2, "{value:#}");
+    assert_eq!(value["conflict"].to_string(), r#"["climb_speed >= 75 cm/s","spectral_radius <= 0.9"]"#);
+    // What is reached of the speed is the optimum of the problem that bounds stability alone.
+    let (_, alone) = json(&[&["optimize", "prescribed_length"][..], &FAST, &constraints[2..]].concat());
+    approx::assert_relative_eq!(
+        number(&value, "/reached/0/value"),
+        number(&alone, "/objective/value"),
+        max_relative = 1e-7
+    );
+    approx::assert_relative_eq!(
+        number(&value, "/reached/0/margin"),
+        number(&alone, "/objective/value") - 0.75,
+        max_relative = 1e-6
+    );
+    assert!(number(&value, "/reached/1/value") > 0.9);
+    assert!(value["message"].as_str().unwrap().contains("`climb_speed` is at most 67."), "{value:#}");
+}
+
+#[test]
+fn no_gait_anywhere_in_the_ranges() {
+    let flags = ["--maximize", "climb_speed", "--vary", "psi=30..45 deg"];
+    let (code, value) = json(&[&["optimize", "angle_switched"][..], &flags].concat());
+    assert_eq!((code, value["status"].as_str()), (2, Some("no_gait")), "{value:#}");
+    assert!(value["message"].as_str().unwrap().contains("no periodic gait to start from"), "{value:#}");
+    assert!(value["notes"].to_string().contains("other places in the ranges"), "{value:#}");
+}
+
+#[test]
+fn starts_are_the_same_for_any_number_of_threads() {
+    let run = |threads: &str| {
+        let flags = ["--problem", "fastest", "--starts", "6", "--seed", "5", "--threads", threads];
+        let output = common::gaitc(&[&["optimize", "prescribed_length", "--json"][..], &flags].concat());
+        assert_eq!(output.status.code(), Some(0));
+        output.stdout
+    };
+    let one = run("1");
+    assert_eq!(one, run("3"));
+    let value: serde_json::Value = serde_json::from_slice(&one).unwrap();
+    let optima = value["optima"].as_array().unwrap();
+    assert_eq!(optima.iter().map(|o| o["starts"].as_u64().unwrap()).sum::<u64>(), 6, "{value:#}");
+    assert_eq!(optima[0]["objective"], value["objective"]["value"]);
+}
+
+#[test]
+fn a_gait_of_two_steps() {
+    let speed = |flags: &[&str]| {
+        let (code, value) = json(&[&["optimize", "prescribed_length"][..], &FAST, flags].concat());
+        assert_eq!(code, 0, "{value:#}");
+        (number(&value, "/objective/value"), number(&value, "/spectral_radius"))
+    };
+    let (one, two) = (speed(&[]), speed(&["--period", "2"]));
+    // Two maps of a gait of one: the same speed, the square of the multipliers.
+    approx::assert_relative_eq!(one.0, two.0, max_relative = 1e-8);
+    approx::assert_relative_eq!(one.1 * one.1, two.1, max_relative = 1e-6);
+}
+
+/// A run that would take hours, interrupted after a while: exit code, stdout, stderr.
+#[cfg(unix)]
+fn interrupted(flags: &[&str]) -> (Option<i32>, String, String) {
+    use std::process::{Command, Stdio};
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gaitc"));
+    command.current_dir(env!("CARGO_MANIFEST_DIR")).env("NO_COLOR", "1");
+    command.args(["optimize", "prescribed_length", "--problem", "fastest", "--starts", "100000"]).args(flags);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_prints_the_best_gait_so_far() {
+    let (code, out, err) = interrupted(&[]);
+    assert_eq!(code, Some(130), "{out}\n{err}");
+    assert!(out.contains("interrupted: this is the best gait so far, not an optimum"), "{out}");
+    assert!(out.contains("climb_speed = ") && out.contains("spectral_radius"), "{out}");
+    let (code, out, err) = interrupted(&["--json"]);
+    assert_eq!(code, Some(130), "{err}");
+    let value: serde_json::Value = serde_json::from_str(&out).expect("one whole document");
+    assert_eq!(value["status"].as_str(), Some("interrupted"), "{value:#}");
+    // It meets the problem's constraint.
+    assert!(number(&value, "/measures/peak_force") <= 150.0 * (1.0 + 1e-6), "{value:#}");
+    assert!(number(&value, "/objective/value") > 0.5 && number(&value, "/starts/run") < 100_000.0, "{value:#}");
+}
