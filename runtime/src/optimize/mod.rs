@@ -18,6 +18,9 @@
 mod active_set;
 mod characteristic;
 mod confirm;
+mod critical_cone;
+mod envelope;
+mod escape;
 mod gait;
 mod jacobian_derivative;
 mod jury;
@@ -28,6 +31,7 @@ mod problem;
 mod program;
 mod quasi_newton;
 mod search;
+mod second_order;
 mod solution;
 mod starts;
 mod subproblem;
@@ -37,7 +41,7 @@ mod verdict;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
-pub use solution::{Active, ActiveKind, Confirmation, Kink, Solution, Starts, Status};
+pub use solution::{Active, ActiveKind, Confirmation, Curvature, Kink, Sensitivity, Shape, Solution, Starts, Status};
 
 use gait::NoGait;
 use program::{Failure, Program};
@@ -108,7 +112,7 @@ fn better(problem: &Problem<'_>, a: &Verdict, b: &Verdict) -> bool {
     let rank = |status| match status {
         Status::Optimal => 0,
         Status::Unbounded => 1,
-        Status::Unconfirmed => 2,
+        Status::Unconfirmed | Status::Saddle => 2,
         Status::IterationLimit | Status::Stalled | Status::SubproblemFailed => 3,
         Status::InfeasibleLocally => 4,
         Status::NoGait => 5,

@@ -9,6 +9,8 @@ pub enum Status {
     Optimal,
     /// The search converged, but a fresh simulation disagrees.
     Unconfirmed,
+    /// The first-order conditions hold, but the objective curves the wrong way, and no search from next to it did better.
+    Saddle,
     /// The search ended where no small change brings the violated constraints any closer to holding.
     InfeasibleLocally,
     /// No periodic gait was found to start from.
@@ -42,6 +44,50 @@ pub struct Active {
     /// By how much the objective improves for each unit by which the bound is relaxed, SI units; not negative. For
     /// `spectral_radius <= r` the unit is that of r.
     pub multiplier: f64,
+}
+
+/// What second derivatives say of an optimum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// The active constraints leave no direction: first derivatives decide.
+    Vertex,
+    /// In every direction that is left the objective gets worse.
+    Strict,
+    /// In some direction it changes by less than can be told.
+    Flat,
+    /// In some direction it improves: no optimum.
+    Saddle,
+    /// Second derivatives cannot be had here, or do not decide.
+    Undecided,
+}
+
+/// The second-order condition: the Hessian of the Lagrangian on the directions that the active constraints leave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curvature {
+    /// The verdict.
+    pub shape: Shape,
+    /// How many bounds and inequalities limit the optimum (a bound on the spectral radius can count more than once) ...
+    pub constraints: usize,
+    /// ... and how many more are met with equality, but have no price.
+    pub weak: usize,
+    /// How many independent directions the former leave.
+    pub directions: usize,
+    /// Smallest eigenvalue there, in scaled quantities; NaN where there is none.
+    pub smallest: f64,
+    /// What it may be off by.
+    pub error: f64,
+    /// For a flat direction or a saddle: the parameters along it, the largest share of its range first. Empty where only the
+    /// gait moves.
+    pub along: Vec<usize>,
+}
+
+/// How the optimum follows a parameter that is held fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Index into `info().parameters`.
+    pub parameter: usize,
+    /// Derivative of the best objective with respect to it, SI units.
+    pub derivative: f64,
 }
 
 /// How many starts were run and how many of them gave a confirmed optimum.
@@ -100,6 +146,11 @@ pub struct Solution {
     pub measures: Vec<f64>,
     /// What limits the optimum, the highest price first in units of each bound's natural scale.
     pub active: Vec<Active>,
+    /// The second-order condition; `None` when the search did not converge.
+    pub curvature: Option<Curvature>,
+    /// How the optimum follows each fixed parameter, the largest change for one per cent of its value first; empty when the
+    /// search did not converge.
+    pub sensitivities: Vec<Sensitivity>,
     /// Set where multipliers of largest magnitude meet.
     pub kink: Option<Kink>,
     /// Iterations of the start that is reported.

@@ -1,19 +1,20 @@
 //! From the end of a search to the verdict: polished gait, confirmation, active constraints with shadow prices, kink.
 
 use super::confirm::{self, Claim};
+use super::critical_cone::significant;
+use super::envelope;
+use super::escape;
 use super::gait::{self, NoGait};
 use super::kkt::{infeasibility, kkt};
 use super::message;
 use super::problem::{Constraint, ConstraintKind, Objective, Problem, ProblemError};
 use super::program::{Failure, Point, Program, Row};
 use super::search::{End, Ended};
-use super::solution::{Active, ActiveKind, Kink, Solution, Starts, Status};
+use super::solution::{Active, ActiveKind, Curvature, Kink, Shape, Solution, Starts, Status};
 use super::starts::Start;
 use crate::orbit;
 use nalgebra::{Complex, DVector};
 
-/// Scaled multiplier below which a constraint does not limit anything.
-const NEGLIGIBLE: f64 = 1e-6;
 /// Gap, relative to their magnitude, at which two multipliers meet: their difference is the square root of the
 /// polynomial's discriminant, so this is where the discriminant is down to 1e-6 of its scale.
 const MEETING: f64 = 1e-3;
@@ -31,7 +32,12 @@ pub(super) struct Verdict {
 /// Only for a problem that turns out to be wrong as stated.
 pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict, ProblemError> {
     let problem = program.problem;
+    let curvature = escape::settle(program, &mut ended)?.map(|found| found.curvature);
     polish(program, &mut ended)?;
+    let sensitivities = match curvature {
+        Some(_) => envelope::sensitivities(program, &ended),
+        None => Vec::new(),
+    };
     let point = &ended.point;
     let d = point.section.len();
     let multipliers = orbit::multipliers(&point.map.jacobian.columns(0, d).into_owned());
@@ -52,6 +58,8 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         multipliers,
         measures: point.map.measures.as_slice().to_vec(),
         active: active(program, &ended),
+        curvature,
+        sensitivities,
         iterations: ended.iterations,
         kkt_residual: residuals.residual(),
         starts: Starts::default(),
@@ -105,6 +113,9 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         End::Subproblem(words) => words.clone(),
         _ => message::violations(program, &ended.point),
     };
+    if solution.status == Status::Optimal && saddle(solution.curvature.as_ref()) {
+        solution.status = Status::Saddle;
+    }
     if solution.status == Status::Optimal {
         match confirmed(program, ended, solution) {
             Ok(confirmation) => solution.confirmation = Some(confirmation),
@@ -125,6 +136,10 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     }
     solution.notes.extend(ended.point.map.warnings.iter().map(|warning| message::warning(problem, warning)));
     solution.message = message::message(problem, solution, &detail);
+}
+
+fn saddle(curvature: Option<&Curvature>) -> bool {
+    curvature.is_some_and(|curvature| curvature.shape == Shape::Saddle)
 }
 
 /// A fresh simulation, and the bounds on the spectral radius against the eigenvalues themselves.
@@ -179,9 +194,8 @@ fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
         let multiplier = f64::max(0.0, price * scale);
         priced.push((scaled, Active { kind: ActiveKind::Constraint(i), multiplier }));
     }
-    // What is below the residual of the conditions themselves says nothing.
-    let residual = kkt(program, &ended.point, &ended.lin, m).optimality;
-    priced.retain(|(scaled, _)| *scaled > NEGLIGIBLE.max(10.0 * residual));
+    let least = significant(program, ended);
+    priced.retain(|(scaled, _)| *scaled > least);
     priced.sort_by(|a, b| b.0.total_cmp(&a.0));
     priced.into_iter().map(|(_, active)| active).collect()
 }
@@ -238,6 +252,8 @@ fn without_values(status: Status, message: String, parameters: Vec<f64>, section
         multipliers: Vec::new(),
         measures: Vec::new(),
         active: Vec::new(),
+        curvature: None,
+        sensitivities: Vec::new(),
         kink: None,
         iterations: 0,
         kkt_residual: f64::NAN,

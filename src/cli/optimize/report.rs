@@ -190,6 +190,7 @@ fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",
+        Status::Saddle => "saddle",
         Status::InfeasibleLocally => "infeasible_locally",
         Status::NoGait => "no_gait",
         Status::Unbounded => "unbounded",
