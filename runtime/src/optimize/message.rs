@@ -158,7 +158,8 @@ impl fmt::Display for NoGait {
     }
 }
 
-fn stop_text(stop: &Stop) -> String {
+/// Why a run stopped.
+pub(super) fn stop_text(stop: &Stop) -> String {
     let why = match stop.reason {
         StopReason::NoEvent => "no step ends within the time limit",
         StopReason::StepLimit => "the integration needs more steps than allowed",

@@ -19,14 +19,18 @@ mod active_set;
 mod characteristic;
 mod confirm;
 mod critical_cone;
+mod disturbed;
 mod envelope;
 mod escape;
 mod gait;
+mod independent;
 mod jacobian_derivative;
 mod jury;
 mod kkt;
 mod linearisation;
+mod lyapunov;
 mod message;
+mod noise;
 mod problem;
 mod program;
 mod quasi_newton;
@@ -34,6 +38,7 @@ mod search;
 mod second_order;
 mod solution;
 mod starts;
+mod stepper;
 mod subproblem;
 mod variables;
 mod verdict;
@@ -73,7 +78,7 @@ pub fn solve(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
             best = verdict;
         }
     }
-    let mut solution = best.solution;
+    let mut solution = verdict::tested(problem, best);
     solution.starts = Starts { run: problem.settings.starts, converged };
     solution.notes.extend(start_notes(problem, &moved, first.parameters != parameters));
     Ok(solution)

@@ -1,5 +1,6 @@
 //! What an optimisation ended with: a verdict, the gait, and what limits it.
 
+use crate::return_map::Method;
 use nalgebra::Complex;
 
 /// The verdict. Everything but [`Status::Optimal`] means: no optimum to rely on; the message says what to do next.
@@ -121,6 +122,79 @@ pub struct Confirmation {
     pub maps: usize,
     /// ... and what was left of the disturbance.
     pub remaining: f64,
+    /// The gait under random disturbances before each of many maps; `None` for a section without coordinates.
+    pub disturbed: Option<Disturbed>,
+    /// Map and Jacobian by another route; `None` where there is none.
+    pub independent: Option<Independent>,
+}
+
+/// What random disturbances of every coordinate before each map made of a gait.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Disturbed {
+    /// It is stable, and stayed.
+    Stays {
+        /// Maps in sequence.
+        maps: usize,
+        /// Standard deviation of the disturbance of a coordinate, relative to its size.
+        level: f64,
+        /// Largest difference of a map from the linear prediction, relative to the size of the deviations.
+        nonlinear: f64,
+        /// Largest relative difference between the standard deviation of a coordinate and the predicted one, ...
+        spread: f64,
+        /// ... and what it is on average (one standard deviation) because the sample is no longer than that.
+        sampling: f64,
+        /// Maps in which a deviation falls to 1/e. When it is not short against `maps`, the spread says little, and it is
+        /// the agreement of the single maps that counts.
+        memory: f64,
+    },
+    /// It is not stable: a small deviation was followed for as long as it stayed small.
+    Grows {
+        /// Maps in sequence.
+        maps: usize,
+        /// By what factor the deviation grew ...
+        grown: f64,
+        /// ... and by what factor the Jacobian says it grows.
+        expected: f64,
+    },
+}
+
+/// Another route to the map and its Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// Another integration method, with its own variational equations.
+    Method(Method),
+    /// Gauss collocation on a fixed grid; the Jacobian by differences of its maps.
+    Collocation {
+        /// Steps between two transitions.
+        steps: usize,
+    },
+}
+
+impl Route {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Method(Method::Explicit) => "the explicit Runge-Kutta method",
+            Self::Method(Method::Radau3) => "Radau IIA with 3 stages",
+            Self::Method(_) => "Radau IIA",
+            Self::Collocation { .. } => "Gauss collocation",
+        }
+    }
+}
+
+/// By how much another route differs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Independent {
+    /// Which.
+    pub route: Route,
+    /// Largest difference of a coordinate after the map, relative to its size.
+    pub image: f64,
+    /// Largest difference of an entry of the Jacobian in units of the coordinates' sizes, relative to the largest entry.
+    pub jacobian: f64,
+    /// Largest distance between multipliers, relative to the largest magnitude.
+    pub multipliers: f64,
+    /// What the other route's image may itself be off by.
+    pub uncertainty: f64,
 }
 
 /// The result of [`solve`](super::solve).

@@ -24,6 +24,8 @@ pub(super) struct Verdict {
     pub(super) solution: Solution,
     /// Largest scaled violation of a constraint.
     pub(super) violation: f64,
+    /// Size of each section coordinate; empty without a gait.
+    pub(super) nominal: Vec<f64>,
 }
 
 /// The verdict on a search.
@@ -66,7 +68,7 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         confirmation: None,
     };
     judge(program, &ended, &mut solution);
-    Ok(Verdict { violation: infeasibility(point), solution })
+    Ok(Verdict { violation: infeasibility(point), solution, nominal: program.variables.nominal.clone() })
 }
 
 /// Newton on the gait at the final parameters; the point and its derivatives follow.
@@ -136,6 +138,18 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     }
     solution.notes.extend(ended.point.map.warnings.iter().map(|warning| message::warning(problem, warning)));
     solution.message = message::message(problem, solution, &detail);
+}
+
+/// The solution of a verdict; of an optimum, after the long tests, which only the best of all starts has to pass.
+pub(super) fn tested(problem: &Problem<'_>, verdict: Verdict) -> Solution {
+    let Verdict { mut solution, nominal, .. } = verdict;
+    if solution.status == Status::Optimal
+        && let Err(reason) = confirm::at_length(problem, &mut solution, &nominal)
+    {
+        solution.status = Status::Unconfirmed;
+        solution.message = message::message(problem, &solution, &reason);
+    }
+    solution
 }
 
 fn saddle(curvature: Option<&Curvature>) -> bool {
@@ -260,7 +274,7 @@ fn without_values(status: Status, message: String, parameters: Vec<f64>, section
         starts: Starts::default(),
         confirmation: None,
     };
-    Verdict { solution, violation: f64::INFINITY }
+    Verdict { solution, violation: f64::INFINITY, nominal: Vec::new() }
 }
 
 /// The search's starting point as a point of the program.
