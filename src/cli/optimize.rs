@@ -2,6 +2,7 @@
 
 mod report;
 mod request;
+mod verdict;
 
 use super::args::{Cli, OptimizeArgs};
 use super::{InputError, Outcome, inputs};

@@ -46,7 +46,10 @@ mod verdict;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
-pub use solution::{Active, ActiveKind, Confirmation, Curvature, Kink, Sensitivity, Shape, Solution, Starts, Status};
+pub use solution::{
+    Active, ActiveKind, Confirmation, Curvature, Disturbed, Independent, Kink, Route, Sensitivity, Shape, Solution,
+    Starts, Status,
+};
 
 use gait::NoGait;
 use program::{Failure, Program};
