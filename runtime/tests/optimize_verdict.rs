@@ -2,10 +2,17 @@
 //! answers are known.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failing test should say where
 
+mod common;
 mod optimize_support;
 
 use approx::assert_relative_eq;
-use gaitc_runtime::optimize::{ActiveKind, Curvature, Objective, Problem, Sense, Shape, Solution, Status};
+use common::climbers::{self, M_L};
+use common::crank::{self, M_S};
+use gaitc_runtime::model::ModelInfo;
+use gaitc_runtime::optimize::{
+    ActiveKind, Curvature, Disturbed, Objective, Problem, Route, Sense, Settings, Shape, Solution, Status, Vary,
+};
+use gaitc_runtime::return_map::{MapOutcome, MapRequest, Method, RequestError, ReturnMap};
 use optimize_support::{Closed, Dual, about, expression, margin, problem, solved, spectral};
 
 fn c(v: f64) -> Dual {
@@ -181,7 +188,7 @@ fn the_least_spectral_radius_is_a_vertex_where_multipliers_meet() {
     let solution = solved(&problem);
     assert_eq!(solution.status, Status::Optimal);
     assert_relative_eq!(solution.objective, 0.45, epsilon = 1e-5);
-    assert_eq!((curvature(&solution).shape, curvature(&solution).constraints), (Shape::Vertex, 2));
+    assert_eq!((curvature(&solution).shape, curvature(&solution).constraints), (Shape::Vertex, 1));
     assert_relative_eq!(sensitivity(&solution, 1), 0.5, epsilon = 1e-4);
 }
 
@@ -207,4 +214,118 @@ fn without_an_optimum_there_is_no_verdict_on_it() {
     let solution = solved(&problem);
     assert_eq!(solution.status, Status::InfeasibleLocally);
     assert!(solution.curvature.is_none() && solution.sensitivities.is_empty());
+}
+
+/// M_L varied over its sprawl, for the speed or for stability.
+fn climber(map: &dyn ReturnMap) -> Problem<'_> {
+    Problem {
+        map,
+        memory: vec![0.0],
+        parameters: climbers::parameters(20.0).to_vec(),
+        period: 1,
+        vary: vec![Vary { parameter: 3, lower: 0.0, upper: 45f64.to_radians() }],
+        sense: Sense::Maximize,
+        objective: expression(|m, _| m[0]),
+        constraints: vec![spectral(0.95)],
+        start: vec![-20f64.to_radians(), -0.2],
+        settings: Settings::default(),
+    }
+}
+
+#[test]
+fn a_stable_gait_stays_under_disturbances_and_another_method_agrees() {
+    let confirmation = solved(&climber(&M_L)).confirmation.unwrap();
+    let Some(Disturbed::Stays { maps, level, nonlinear, spread, sampling, memory }) = confirmation.disturbed else {
+        panic!("{confirmation:?}")
+    };
+    assert_eq!(maps, 1000);
+    assert!(level > 1e-7 && level <= 1e-5 && nonlinear < 1e-3);
+    // 0.95 to the power of 19.5 is 1/e; half the variance's error is that of the standard deviation.
+    assert_relative_eq!(memory, -1.0 / 0.95_f64.ln(), max_relative = 1e-6);
+    assert!(sampling > 0.03 && sampling < 0.2 && spread < 5.0 * sampling, "{spread} {sampling}");
+    let other = confirmation.independent.unwrap();
+    assert_eq!(other.route, Route::Method(Method::Radau5));
+    assert!(other.image < 1e-10 && other.jacobian < 1e-9 && other.multipliers < 1e-9, "{other:?}");
+}
+
+#[test]
+fn an_unstable_gait_is_left_as_predicted() {
+    let mut problem = climber(&M_L);
+    problem.constraints.clear();
+    problem.vary[0] = Vary { parameter: 3, lower: 8f64.to_radians(), upper: 12f64.to_radians() };
+    let solution = solved(&problem);
+    assert_eq!(solution.status, Status::Optimal);
+    assert!(solution.spectral_radius > 1.0);
+    let Some(Disturbed::Grows { maps, grown, expected }) = solution.confirmation.unwrap().disturbed else { panic!() };
+    assert!(maps > 10 && expected > 1e3);
+    assert_relative_eq!(grown, expected, max_relative = 1e-2);
+}
+
+#[test]
+fn through_dead_centres_collocation_agrees() {
+    let mut problem = climber(&M_S);
+    problem.memory = vec![];
+    problem.parameters = crank::parameters(56.57, 58.0, 20.0).to_vec();
+    let psi = (0..10).find(|i| (problem.parameters[*i] - 20f64.to_radians()).abs() < 1e-12).unwrap();
+    problem.vary[0] = Vary { parameter: psi, lower: 15f64.to_radians(), upper: 30f64.to_radians() };
+    problem.settings.accuracy.relative = 1e-10;
+    problem.settings.accuracy.absolute = 1e-11;
+    problem.objective = Objective::SpectralRadius;
+    problem.sense = Sense::Minimize;
+    problem.constraints.clear();
+    let solution = solved(&problem);
+    assert_eq!(solution.status, Status::Optimal);
+    let other = solution.confirmation.unwrap().independent.unwrap();
+    assert!(matches!(other.route, Route::Collocation { .. }), "{other:?}");
+    assert!(other.image < 1e-8 && other.jacobian < 1e-7, "{other:?}");
+}
+
+/// A map that says something else when it is asked by the second route.
+struct TwoFaced {
+    map: &'static dyn ReturnMap,
+    image: f64,
+    jacobian: f64,
+}
+
+impl ReturnMap for TwoFaced {
+    fn info(&self) -> &'static ModelInfo {
+        self.map.info()
+    }
+
+    fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError> {
+        let mut outcome = self.map.evaluate(request)?;
+        if let (MapOutcome::Completed(map), Method::Radau5) = (&mut outcome, request.accuracy.method) {
+            map.coordinates[0] += self.image;
+            if map.jacobian.ncols() > 0 {
+                map.jacobian[(1, 0)] += self.jacobian;
+            }
+        }
+        Ok(outcome)
+    }
+}
+
+#[test]
+fn a_second_route_that_disagrees_is_named() {
+    for (image, jacobian, what) in [(1e-6, 0.0, "the map differs"), (0.0, 1e-4, "the Jacobian differs")] {
+        let map = TwoFaced { map: &M_L, image, jacobian };
+        let solution = solved(&climber(&map));
+        assert_eq!(solution.status, Status::Unconfirmed);
+        assert!(solution.message.contains(what) && solution.message.contains("Radau IIA"), "{}", solution.message);
+    }
+    let map = TwoFaced { map: &M_L, image: 0.0, jacobian: 0.0 };
+    assert_eq!(solved(&climber(&map)).status, Status::Optimal);
+}
+
+#[test]
+fn a_kink_at_the_gait_shows_under_disturbances() {
+    // What a central difference cannot see: the map bends at the gait itself.
+    let map = Closed::new(1, 1, 1, |z, p| {
+        let e = z[0] - p[0].sin();
+        let bend = if e.v < 0.0 { -0.3 } else { 0.3 };
+        let slope = if e.v.abs() < 1e-9 { 0.0 } else { bend };
+        Some((vec![p[0].sin() + e * (0.4 + slope)], vec![z[0]]))
+    });
+    let solution = solved(&problem(&map, Sense::Maximize, expression(|m, _| m[0]), &[0.2], &[(0.0, 1.0)]));
+    assert_eq!(solution.status, Status::Unconfirmed);
+    assert!(solution.message.contains("disturbed maps differ"), "{}", solution.message);
 }

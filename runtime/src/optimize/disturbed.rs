@@ -22,8 +22,9 @@ const ALLOWED: f64 = 5.0;
 const NONLINEAR: f64 = 1e-2;
 /// ... and how far out, in predicted standard deviations, a deviation of a gait that stays may be.
 const FAR: f64 = 10.0;
-/// A principal axis with less than this part of the largest variance is not measured: it shows the second order.
-const THIN: f64 = 1e-6;
+/// A direction in which deviations are smaller than this part of the disturbance is not measured: there they show the errors
+/// of the maps and the second order.
+const THIN: f64 = 1e-2;
 /// Deviations from an unstable gait begin at this, and are followed up to `SMALL` times ten.
 const FIRST: f64 = 1e-8;
 /// By how much an unstable gait's deviation may differ from the prediction.
@@ -107,7 +108,7 @@ fn stays(
             "disturbed maps differ from what the Jacobian predicts by {nonlinear:.1e} of the deviations, where {NONLINEAR:.0e} is allowed"
         ));
     }
-    let compared = compare(linear.jacobian, &covariance, &(sums / MAPS as f64))?;
+    let compared = compare(linear.jacobian, &covariance, &(sums / MAPS as f64), level)?;
     let memory = if linear.spectral_radius > 0.0 { -1.0 / linear.spectral_radius.ln() } else { 0.0 };
     Ok(Disturbed::Stays { maps: MAPS, level, nonlinear, spread: compared.spread, sampling: compared.sampling, memory })
 }
@@ -121,12 +122,17 @@ struct Compared {
 }
 
 /// Compares variances along the coordinates and along the principal axes, which also shows wrong covariances.
-fn compare(jacobian: &DMatrix<f64>, predicted: &DMatrix<f64>, sample: &DMatrix<f64>) -> Result<Compared, String> {
+fn compare(
+    jacobian: &DMatrix<f64>,
+    predicted: &DMatrix<f64>,
+    sample: &DMatrix<f64>,
+    level: f64,
+) -> Result<Compared, String> {
     let d = predicted.nrows();
     let eigen = predicted.clone().symmetric_eigen();
     let coordinates = (0..d).map(|i| DVector::from_fn(d, |k, _| if k == i { 1.0 } else { 0.0 }));
     let axes = eigen.eigenvectors.column_iter().map(|axis| axis.into_owned());
-    let thin = THIN * eigen.eigenvalues.amax();
+    let thin = (THIN * level).powi(2);
     let mut found = Compared { spread: 0.0, sampling: 0.0 };
     for (k, direction) in coordinates.chain(axes).enumerate() {
         let (variance, relative) = along(jacobian, predicted, &direction, MAPS);
@@ -175,4 +181,49 @@ fn grows(linear: &Linear<'_>, stepper: &mut Stepper<'_>) -> Result<Disturbed, St
         ));
     }
     Ok(Disturbed::Grows { maps, grown, expected })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dmatrix;
+
+    /// Deviations of the linear map itself, as covariance over a thousand maps in sequence.
+    fn sampled(jacobian: &DMatrix<f64>, seed: u64) -> DMatrix<f64> {
+        let mut noise = Noise::new(seed);
+        let mut e = DVector::zeros(2);
+        let mut sum = DMatrix::zeros(2, 2);
+        for map in 0..MAPS + 100 {
+            e = jacobian * (e + DVector::from_fn(2, |_, _| noise.normal()));
+            if map >= 100 {
+                sum += &e * e.transpose();
+            }
+        }
+        sum / MAPS as f64
+    }
+
+    #[test]
+    fn the_right_covariance_passes_and_wrong_ones_do_not() {
+        let jacobian = dmatrix![0.6, 0.5; -0.4, 0.7];
+        let right = stationary(&jacobian, &DMatrix::identity(2, 2)).expect("stable");
+        for seed in 0..20 {
+            let sample = sampled(&jacobian, seed);
+            let found = compare(&jacobian, &right, &sample, 1.0).expect("as predicted");
+            assert!(found.sampling > 0.02 && found.sampling < 0.08 && found.spread < 5.0 * found.sampling);
+            assert!(compare(&jacobian, &(&right * 1.6), &sample, 1.0).is_err());
+            assert!(compare(&jacobian, &(&right * 0.6), &sample, 1.0).is_err());
+            // Right variances of the coordinates, wrong covariance of the two.
+            let mut turned = right.clone();
+            (turned[(0, 1)], turned[(1, 0)]) = (-0.7 * right[(0, 0)], -0.7 * right[(0, 0)]);
+            assert!(compare(&jacobian, &turned, &sample, 1.0).is_err());
+        }
+    }
+
+    #[test]
+    fn what_a_map_leaves_nothing_of_is_not_measured() {
+        let jacobian = dmatrix![1e-9, 0.0; 0.0, 1e-9];
+        let tiny = stationary(&jacobian, &DMatrix::identity(2, 2)).expect("stable");
+        let found = compare(&jacobian, &tiny, &dmatrix![1e-12, 0.0; 0.0, 1e-12], 1.0).expect("nothing to compare");
+        assert_eq!((found.spread, found.sampling), (0.0, 0.0));
+    }
 }

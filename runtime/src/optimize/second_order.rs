@@ -36,7 +36,7 @@ pub(super) fn second_order(program: &Program<'_>, ended: &Ended) -> SecondOrder 
     let cone = CriticalCone::at(program, ended);
     let blank = Curvature {
         shape: Shape::Undecided,
-        constraints: cone.strong,
+        constraints: cone.strong - usize::from(program.variables.epigraph.is_some()).min(cone.strong),
         weak: cone.weak.nrows(),
         directions: cone.basis.ncols(),
         smallest: f64::NAN,

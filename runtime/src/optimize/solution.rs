@@ -67,7 +67,8 @@ pub enum Shape {
 pub struct Curvature {
     /// The verdict.
     pub shape: Shape,
-    /// How many bounds and inequalities limit the optimum (a bound on the spectral radius can count more than once) ...
+    /// How many bounds and inequalities limit the optimum, one less for a spectral radius that is minimised: it is itself the
+    /// least bound on its inequalities. A bound on the spectral radius can count more than once, where multipliers meet; ...
     pub constraints: usize,
     /// ... and how many more are met with equality, but have no price.
     pub weak: usize,
@@ -139,7 +140,8 @@ pub enum Disturbed {
         level: f64,
         /// Largest difference of a map from the linear prediction, relative to the size of the deviations.
         nonlinear: f64,
-        /// Largest relative difference between the standard deviation of a coordinate and the predicted one, ...
+        /// Largest relative difference between the standard deviation of a coordinate and the predicted one; 0 where a map
+        /// leaves less than 1 % of a disturbance, ...
         spread: f64,
         /// ... and what it is on average (one standard deviation) because the sample is no longer than that.
         sampling: f64,

@@ -115,7 +115,7 @@ impl Report<'_> {
                 vec![
                     parameter.name.clone(),
                     format_quantity(value, &parameter.unit),
-                    signed(&self.objective_quantity(0.01 * q.derivative * value.abs())),
+                    signed(&self.objective_quantity(0.01 * q.derivative * value)),
                     format!("{} per {}", signed(&self.objective_quantity(q.derivative * step)), one(&parameter.unit)),
                 ]
             })

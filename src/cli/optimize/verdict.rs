@@ -1,7 +1,8 @@
 //! What makes an optimum trustworthy, in words and as JSON: the second-order condition and the confirmation.
 
+use gaitc_compiler::front::format_number;
 use gaitc_compiler::ir::{Model, Problem, Sense};
-use gaitc_runtime::optimize::{Confirmation, Curvature, Disturbed, Independent, Shape, Solution};
+use gaitc_runtime::optimize::{Confirmation, Curvature, Disturbed, Independent, Shape, Solution, Status};
 use serde_json::{Value, json};
 
 /// The second-order condition as JSON.
@@ -66,7 +67,7 @@ fn independent_json(independent: &Independent) -> Value {
 /// One line on the second-order condition, one on the confirmation; nothing where there is neither.
 pub(super) fn lines(spec: &Model, problem: &Problem, solution: &Solution) -> String {
     let second_order = solution.curvature.as_ref().map(|curvature| second_order(spec, problem, curvature));
-    let confirmation = solution.confirmation.as_ref().map(confirmed);
+    let confirmation = solution.confirmation.as_ref().filter(|_| solution.status == Status::Optimal).map(confirmed);
     let lines: Vec<String> = second_order.into_iter().chain(confirmation).map(|line| format!("{line}\n")).collect();
     if lines.is_empty() { String::new() } else { format!("\n{}", lines.concat()) }
 }
@@ -117,20 +118,29 @@ fn confirmed(confirmation: &Confirmation) -> String {
     match confirmation.disturbed {
         Some(Disturbed::Stays { maps, spread, sampling, memory, .. }) => {
             let long = if memory > 0.1 * maps as f64 {
-                format!(", as a deviation lasts {memory:.0} maps")
+                format!(", as deviations last {} maps", format_number(memory.round()))
             } else {
                 String::new()
             };
+            let deviations = if sampling > 0.0 {
+                format!(
+                    "deviations as predicted within {} (sampling alone: {}{long})",
+                    percent(spread),
+                    percent(sampling)
+                )
+            } else {
+                "a map leaves nothing of them".to_owned()
+            };
+            parts.push(format!("{} disturbed maps in sequence, {deviations}", thousands(maps)));
+        }
+        Some(Disturbed::Grows { maps, grown, expected }) => {
+            let close = percent((grown / expected - 1.0).abs().max(1e-3));
             parts.push(format!(
-                "{} disturbed maps in sequence, deviations as predicted within {} (a sample of that length shows {}{long})",
-                thousands(maps),
-                percent(spread),
-                percent(sampling),
+                "not stable, and a small deviation grows {}-fold in {}, as predicted within {close}",
+                format_number(three_digits(grown)),
+                counted(maps, "map")
             ));
         }
-        Some(Disturbed::Grows { maps, grown, expected }) => parts.push(format!(
-            "not stable, and a small deviation grows {grown:.4} times in {maps} maps, as predicted ({expected:.4} times)"
-        )),
         None => {}
     }
     match &confirmation.independent {
@@ -149,7 +159,12 @@ fn confirmed(confirmation: &Confirmation) -> String {
 }
 
 fn percent(part: f64) -> String {
-    format!("{} %", gaitc_compiler::front::format_number((part * 1e3).round() / 10.0))
+    format!("{} %", format_number((part * 1e3).round() / 10.0))
+}
+
+fn three_digits(x: f64) -> f64 {
+    let unit = 10_f64.powi(x.abs().max(f64::MIN_POSITIVE).log10().floor() as i32 - 2);
+    (x / unit).round() * unit
 }
 
 fn thousands(n: usize) -> String {
