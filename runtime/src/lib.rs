@@ -3,6 +3,7 @@
 pub(crate) mod also_zero;
 pub mod batch;
 pub(crate) mod closing;
+pub(crate) mod collocation;
 pub(crate) mod event;
 pub mod hybrid;
 pub(crate) mod integrate;

@@ -306,4 +306,21 @@ pub trait ReturnMap: Send + Sync {
         let _ = (plan, point, chosen);
         Ok(None)
     }
+
+    /// Where the map leads, without derivatives, by a second route that shares nothing with [`Self::evaluate`]: Gauss
+    /// collocation on a fixed grid. `stretches` are the times between transitions, as an evaluation found them, and `steps` says
+    /// into how many steps each is cut; of the accuracy nothing is used. `None` where a step cannot be solved, where the
+    /// transitions come otherwise, or where the map has no such route.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    fn collocate(
+        &self,
+        request: &MapRequest<'_>,
+        stretches: &[f64],
+        steps: usize,
+    ) -> Result<Option<DVector<f64>>, RequestError> {
+        let _ = (request, stretches, steps);
+        Ok(None)
+    }
 }

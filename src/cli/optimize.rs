@@ -6,6 +6,7 @@ mod optima;
 mod report;
 mod request;
 mod trade;
+mod verdict;
 
 use super::args::{Cli, OptimizeArgs};
 use super::{INTERRUPTED, InputError, Outcome, inputs};

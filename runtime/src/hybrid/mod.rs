@@ -14,6 +14,7 @@ mod resolution;
 mod run;
 mod segment;
 
+use crate::collocation;
 use crate::integrate;
 use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
 use crate::model::{Model, ModelInfo, Section};
@@ -130,6 +131,25 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMa
         chosen: &[usize],
     ) -> Result<Option<SecondOrder>, RequestError> {
         replays::second_order::<M, N, P, Q>(plan, point, chosen)
+    }
+
+    fn collocate(
+        &self,
+        request: &MapRequest<'_>,
+        stretches: &[f64],
+        steps: usize,
+    ) -> Result<Option<DVector<f64>>, RequestError> {
+        let section = request::check(M::INFO, request)?;
+        let Ok(p) = <&[f64; P]>::try_from(request.parameters) else {
+            return Ok(None);
+        };
+        let image = collocation::image::<M, N, P, Q>(
+            section,
+            (request.coordinates, p),
+            (request.memory, request.period),
+            (stretches, steps),
+        );
+        Ok(image.map(DVector::from_vec))
     }
 }
 

@@ -93,7 +93,7 @@ pub(super) fn order(problem: &Problem<'_>, a: &Verdict, b: &Verdict) -> Ordering
     let rank = |verdict: &Verdict| match verdict.solution.status {
         Status::Optimal => 0,
         Status::Unbounded => 1,
-        Status::Unconfirmed => 2,
+        Status::Unconfirmed | Status::Saddle => 2,
         Status::Interrupted | Status::IterationLimit | Status::Stalled | Status::SubproblemFailed => 3,
         Status::Infeasible | Status::InfeasibleLocally => 4,
         Status::Undefined => 5,

@@ -1,9 +1,12 @@
 //! Confirmation of a gait by a fresh simulation with other settings: periodicity, measures, linearisation and, when
 //! the gait is claimed to be stable, that a disturbance really dies out.
 
+use super::disturbed::{Linear, disturbed};
 use super::gait;
+use super::independent::{Claimed, independent, scaled};
 use super::problem::Problem;
-use super::solution::Confirmation;
+use super::solution::{Confirmation, Solution};
+use super::stepper::Stepper;
 use crate::return_map::{Accuracy, MapResult};
 use nalgebra::{DMatrix, DVector};
 
@@ -55,9 +58,31 @@ pub(super) fn confirm(problem: &Problem<'_>, claim: &Claim<'_>) -> Result<Confir
         "the Jacobian differs from a difference of maps",
     )?;
     if claim.spectral_radius < 1.0 && !z.is_empty() {
-        (found.maps, found.remaining) = follow(claim, &z, &jacobian, &direction, &sizes, |z| run(z, false))?;
+        (found.maps, found.remaining) = follow(problem, claim, &jacobian, &direction, &sizes)?;
     }
     Ok(found)
+}
+
+/// What takes longer than a few maps: a thousand disturbed maps in sequence, and another route to map and Jacobian. Both are
+/// noted in the solution's confirmation.
+///
+/// # Errors
+/// What disagrees, in words.
+pub(super) fn at_length(problem: &Problem<'_>, solution: &mut Solution, nominal: &[f64]) -> Result<(), String> {
+    let Solution { parameters, section, spectral_radius, confirmation: Some(confirmation), .. } = solution else {
+        return Ok(());
+    };
+    if section.is_empty() {
+        return Ok(());
+    }
+    let map = gait::map(problem, parameters, section, problem.settings.accuracy, false)
+        .map_err(|failure| format!("a run from the gait does not complete: {failure}"))?;
+    let sizes = DVector::from_column_slice(nominal);
+    let jacobian = scaled(&map.jacobian, &sizes);
+    confirmation.independent = independent(problem, &Claimed { parameters, section, map: &map, sizes: &sizes })?;
+    let linear = Linear { parameters, section, sizes: &sizes, jacobian: &jacobian, spectral_radius: *spectral_radius };
+    confirmation.disturbed = Some(disturbed(problem, &linear)?);
+    Ok(())
 }
 
 /// A tenth of the tolerances, as far as double precision carries.
@@ -105,20 +130,22 @@ fn linearisation_differs(
 
 /// Follows a disturbed gait for as many maps as the multipliers need; number of maps and what remains.
 fn follow(
+    problem: &Problem<'_>,
     claim: &Claim<'_>,
-    z: &DVector<f64>,
     jacobian: &DMatrix<f64>,
     direction: &DVector<f64>,
     sizes: &DVector<f64>,
-    run: impl Fn(&DVector<f64>) -> Result<MapResult, String>,
 ) -> Result<(usize, f64), String> {
+    let accuracy = tightened(problem.settings.accuracy);
+    let mut stepper = Stepper::new(problem, (claim.parameters, claim.section), accuracy)?;
     let maps = maps_needed(claim.spectral_radius);
+    let z = DVector::from_column_slice(claim.section);
     let first = direction.component_div(sizes).norm();
-    let mut disturbed = z + direction;
+    let mut disturbed = &z + direction;
     let mut predicted = direction.clone();
     let mut largest = first;
     for _ in 0..maps {
-        disturbed = run(&disturbed)?.coordinates;
+        disturbed = stepper.map(&disturbed)?;
         predicted = jacobian * predicted;
         largest = f64::max(largest, predicted.component_div(sizes).norm());
         if !disturbed.iter().all(|x| x.is_finite()) {

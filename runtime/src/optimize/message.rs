@@ -19,6 +19,11 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
             "the search converged, but a fresh simulation disagrees: {detail}; tighten the accuracy, or look at the gait \
              with `gait` before relying on it"
         ),
+        Status::Saddle => format!(
+            "the first-order conditions of an optimum hold here, but the objective still improves {}, and no search from next \
+             to it ended at a better gait; start elsewhere, or try more starts",
+            along(problem, solution)
+        ),
         Status::Infeasible | Status::InfeasibleLocally => format!(
             "no gait near here meets all constraints: {detail}; relax that constraint, widen the ranges, or try more starts"
         ),
@@ -44,6 +49,14 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
              or start elsewhere"
         ),
     }
+}
+
+/// The direction of a flat optimum or a saddle in terms of the varied parameters.
+fn along(problem: &Problem<'_>, solution: &Solution) -> String {
+    let parameters = problem.map.info().parameters;
+    let name = |p: &usize| format!("`{}`", parameters.get(*p).map_or("?", |q| q.name));
+    let names: Vec<String> = solution.curvature.iter().flat_map(|c| c.along.iter().map(name)).collect();
+    if names.is_empty() { "as the gait moves".to_owned() } else { format!("along {}", names.join(" and ")) }
 }
 
 fn optimal(problem: &Problem<'_>, solution: &Solution) -> String {
@@ -218,7 +231,8 @@ impl fmt::Display for NoGait {
     }
 }
 
-fn stop_text(stop: &Stop) -> String {
+/// Why a run stopped.
+pub(super) fn stop_text(stop: &Stop) -> String {
     let why = match stop.reason {
         StopReason::NoEvent => "no step ends within the time limit",
         StopReason::StepLimit => "the integration needs more steps than allowed",

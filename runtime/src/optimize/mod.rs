@@ -20,23 +20,32 @@ mod attempt;
 mod characteristic;
 mod confirm;
 mod conflict;
+mod critical_cone;
+mod disturbed;
+mod envelope;
+mod escape;
 mod gait;
+mod independent;
 mod interrupt;
 mod jacobian_derivative;
 mod jury;
 mod kkt;
 mod linearisation;
+mod lyapunov;
 mod message;
+mod noise;
 mod optima;
 mod problem;
 mod program;
 mod quasi_newton;
 mod restore;
 mod search;
+mod second_order;
 mod sobol;
 mod solution;
 mod standing;
 mod starts;
+mod stepper;
 mod subproblem;
 mod task;
 mod trade;
@@ -50,7 +59,10 @@ pub use optima::Optimum;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
-pub use solution::{Active, ActiveKind, Confirmation, Kink, Solution, Starts, Status};
+pub use solution::{
+    Active, ActiveKind, Confirmation, Curvature, Disturbed, Independent, Kink, Route, Sensitivity, Shape, Solution,
+    Starts, Status,
+};
 pub use trade::{Aim, Curve, Family, Gap, Origin, TradeOutcome, TradePoint, trade};
 
 use attempt::{Attempt, attempt, goes_on};
@@ -163,7 +175,8 @@ fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: 
         return verdict::no_gait(problem, problem.parameters.clone(), &NoGait::Interrupted).solution;
     };
     let met = attempt::met(&verdict);
-    let mut solution = verdict.solution;
+    // The long tests are for an answer, not for what an interruption leaves.
+    let mut solution = if interrupted { verdict.solution } else { verdict::tested(problem, verdict) };
     if interrupted {
         if met && solution.status != Status::Interrupted {
             solution.message =

@@ -8,7 +8,7 @@ use super::jury;
 use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 use super::task::{Goal, Task};
-use super::variables::Variables;
+use super::variables::{Free, Variables};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
@@ -101,6 +101,19 @@ impl<'a> Program<'a> {
         program.set_references(parameters, &map)?;
         program.set_objective_scale(parameters, section)?;
         Ok(program)
+    }
+
+    /// The same program with other parameters free, the rest as in `base`: rows, scales of coordinates and of rows stay.
+    pub(super) fn with_free(&self, free: Vec<Free>, base: &[f64]) -> Self {
+        Self {
+            problem: self.problem,
+            task: self.task.clone(),
+            base: base.to_vec(),
+            variables: Variables { free, ..self.variables.clone() },
+            rows: self.rows.clone(),
+            references: self.references.clone(),
+            objective_scale: self.objective_scale,
+        }
     }
 
     fn set_references(&mut self, parameters: &[f64], map: &MapResult) -> Result<(), Failure> {

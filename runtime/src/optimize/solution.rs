@@ -2,6 +2,7 @@
 
 use super::conflict::Conflict;
 use super::optima::Optimum;
+use crate::return_map::Method;
 use nalgebra::Complex;
 
 /// The verdict. Everything but [`Status::Optimal`] means: no optimum to rely on; the message says what to do next.
@@ -11,6 +12,8 @@ pub enum Status {
     Optimal,
     /// The search converged, but a fresh simulation disagrees.
     Unconfirmed,
+    /// The first-order conditions hold, but the objective curves the wrong way, and no search from next to it did better.
+    Saddle,
     /// Constraints cannot hold together: searches from several starts agree on which, and how far they get.
     Infeasible,
     /// The search ended where no small change brings the violated constraints any closer to holding.
@@ -52,6 +55,51 @@ pub struct Active {
     pub multiplier: f64,
 }
 
+/// What second derivatives say of an optimum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// The active constraints leave no direction: first derivatives decide.
+    Vertex,
+    /// In every direction that is left the objective gets worse.
+    Strict,
+    /// In some direction it changes by less than can be told.
+    Flat,
+    /// In some direction it improves: no optimum.
+    Saddle,
+    /// Second derivatives cannot be had here, or do not decide.
+    Undecided,
+}
+
+/// The second-order condition: the Hessian of the Lagrangian on the directions that the active constraints leave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curvature {
+    /// The verdict.
+    pub shape: Shape,
+    /// How many bounds and inequalities limit the optimum, one less for a spectral radius that is minimised: it is itself the
+    /// least bound on its inequalities. A bound on the spectral radius can count more than once, where multipliers meet; ...
+    pub constraints: usize,
+    /// ... and how many more are met with equality, but have no price.
+    pub weak: usize,
+    /// How many independent directions the former leave.
+    pub directions: usize,
+    /// Smallest eigenvalue there, in scaled quantities; NaN where there is none.
+    pub smallest: f64,
+    /// What it may be off by.
+    pub error: f64,
+    /// For a flat direction or a saddle: the parameters along it, the largest share of its range first. Empty where only the
+    /// gait moves.
+    pub along: Vec<usize>,
+}
+
+/// How the optimum follows a parameter that is held fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Index into `info().parameters`.
+    pub parameter: usize,
+    /// Derivative of the best objective with respect to it, SI units.
+    pub derivative: f64,
+}
+
 /// How many starts were run and how many of them gave a confirmed optimum. Where none of those asked for does, a few more
 /// are run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,6 +132,80 @@ pub struct Confirmation {
     pub maps: usize,
     /// ... and what was left of the disturbance.
     pub remaining: f64,
+    /// The gait under random disturbances before each of many maps; `None` for a section without coordinates.
+    pub disturbed: Option<Disturbed>,
+    /// Map and Jacobian by another route; `None` where there is none.
+    pub independent: Option<Independent>,
+}
+
+/// What random disturbances of every coordinate before each map made of a gait.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Disturbed {
+    /// It is stable, and stayed.
+    Stays {
+        /// Maps in sequence.
+        maps: usize,
+        /// Standard deviation of the disturbance of a coordinate, relative to its size.
+        level: f64,
+        /// Largest difference of a map from the linear prediction, relative to the size of the deviations.
+        nonlinear: f64,
+        /// Largest relative difference between the standard deviation of a coordinate and the predicted one; 0 where a map
+        /// leaves less than 1 % of a disturbance, ...
+        spread: f64,
+        /// ... and what it is on average (one standard deviation) because the sample is no longer than that.
+        sampling: f64,
+        /// Maps in which a deviation falls to 1/e. When it is not short against `maps`, the spread says little, and it is
+        /// the agreement of the single maps that counts.
+        memory: f64,
+    },
+    /// It is not stable: a small deviation was followed for as long as it stayed small.
+    Grows {
+        /// Maps in sequence.
+        maps: usize,
+        /// By what factor the deviation grew ...
+        grown: f64,
+        /// ... and by what factor the Jacobian says it grows.
+        expected: f64,
+    },
+}
+
+/// Another route to the map and its Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// Another integration method, with its own variational equations.
+    Method(Method),
+    /// Gauss collocation on a fixed grid; the Jacobian by differences of its maps.
+    Collocation {
+        /// Steps between two transitions.
+        steps: usize,
+    },
+}
+
+impl Route {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Method(Method::Explicit) => "the explicit Runge-Kutta method",
+            Self::Method(Method::Radau3) => "Radau IIA with 3 stages",
+            Self::Method(_) => "Radau IIA",
+            Self::Collocation { .. } => "Gauss collocation",
+        }
+    }
+}
+
+/// By how much another route differs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Independent {
+    /// Which.
+    pub route: Route,
+    /// Largest difference of a coordinate after the map, relative to its size.
+    pub image: f64,
+    /// Largest difference of an entry of the Jacobian in units of the coordinates' sizes, relative to the largest entry.
+    pub jacobian: f64,
+    /// Largest distance between multipliers, relative to the largest magnitude.
+    pub multipliers: f64,
+    /// What the other route's image may itself be off by.
+    pub uncertainty: f64,
 }
 
 /// The result of [`solve`](super::solve).
@@ -109,6 +231,11 @@ pub struct Solution {
     pub measures: Vec<f64>,
     /// What limits the optimum, the highest price first in units of each bound's natural scale.
     pub active: Vec<Active>,
+    /// The second-order condition; `None` when the search did not converge.
+    pub curvature: Option<Curvature>,
+    /// How the optimum follows each fixed parameter, the largest change for one per cent of its value first; empty when the
+    /// search did not converge.
+    pub sensitivities: Vec<Sensitivity>,
     /// Set where multipliers of largest magnitude meet.
     pub kink: Option<Kink>,
     /// Iterations of the start that is reported.

@@ -1,18 +1,19 @@
 //! From the end of a search to the verdict: polished gait, confirmation, active constraints with shadow prices, kink.
 
 use super::confirm::{self, Claim};
+use super::critical_cone::significant;
+use super::envelope;
+use super::escape;
 use super::gait::{self, NoGait, Start};
 use super::kkt::{infeasibility, kkt};
 use super::message;
 use super::problem::{Constraint, ConstraintKind, Objective, Problem, ProblemError};
 use super::program::{Failure, Point, Program, Row};
 use super::search::{End, Ended};
-use super::solution::{Active, ActiveKind, Kink, Solution, Starts, Status};
+use super::solution::{Active, ActiveKind, Curvature, Kink, Shape, Solution, Starts, Status};
 use crate::orbit;
 use nalgebra::{Complex, DVector};
 
-/// Scaled multiplier below which a constraint does not limit anything.
-const NEGLIGIBLE: f64 = 1e-6;
 /// Gap, relative to their magnitude, at which two multipliers meet: their difference is the square root of the
 /// polynomial's discriminant, so this is where the discriminant is down to 1e-6 of its scale.
 const MEETING: f64 = 1e-3;
@@ -22,6 +23,8 @@ pub(super) struct Verdict {
     pub(super) solution: Solution,
     /// Largest scaled violation of a constraint.
     pub(super) violation: f64,
+    /// Size of each section coordinate; empty without a gait.
+    pub(super) nominal: Vec<f64>,
 }
 
 /// The verdict on a search.
@@ -30,7 +33,12 @@ pub(super) struct Verdict {
 /// Only for a problem that turns out to be wrong as stated.
 pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict, ProblemError> {
     let problem = program.problem;
+    let curvature = escape::settle(program, &mut ended)?.map(|found| found.curvature);
     polish(program, &mut ended)?;
+    let sensitivities = match curvature {
+        Some(_) => envelope::sensitivities(program, &ended),
+        None => Vec::new(),
+    };
     let point = &ended.point;
     let d = point.section.len();
     let multipliers = orbit::multipliers(&point.map.jacobian.columns(0, d).into_owned());
@@ -51,6 +59,8 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         multipliers,
         measures: point.map.measures.as_slice().to_vec(),
         active: active(program, &ended),
+        curvature,
+        sensitivities,
         iterations: ended.iterations,
         kkt_residual: residuals.residual(),
         starts: Starts::default(),
@@ -59,7 +69,7 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         confirmation: None,
     };
     judge(program, &ended, &mut solution);
-    Ok(Verdict { violation: infeasibility(point), solution })
+    Ok(Verdict { violation: infeasibility(point), solution, nominal: program.variables.nominal.clone() })
 }
 
 /// Newton on the gait at the final parameters; the point and its derivatives follow.
@@ -109,6 +119,9 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         End::Subproblem(words) => words.clone(),
         _ => message::violations(program, &ended.point),
     };
+    if solution.status == Status::Optimal && saddle(solution.curvature.as_ref()) {
+        solution.status = Status::Saddle;
+    }
     if solution.status == Status::Optimal {
         match confirmed(program, ended, solution) {
             Ok(confirmation) => solution.confirmation = Some(confirmation),
@@ -129,6 +142,22 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     }
     solution.notes.extend(ended.point.map.warnings.iter().map(|warning| message::warning(problem, warning)));
     solution.message = message::message(problem, solution, &detail);
+}
+
+/// The solution of a verdict; of an optimum, after the long tests, which only the best of all starts has to pass.
+pub(super) fn tested(problem: &Problem<'_>, verdict: Verdict) -> Solution {
+    let Verdict { mut solution, nominal, .. } = verdict;
+    if solution.status == Status::Optimal
+        && let Err(reason) = confirm::at_length(problem, &mut solution, &nominal)
+    {
+        solution.status = Status::Unconfirmed;
+        solution.message = message::message(problem, &solution, &reason);
+    }
+    solution
+}
+
+fn saddle(curvature: Option<&Curvature>) -> bool {
+    curvature.is_some_and(|curvature| curvature.shape == Shape::Saddle)
 }
 
 /// A fresh simulation, and the bounds on the spectral radius against the eigenvalues themselves.
@@ -183,9 +212,8 @@ fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
         let multiplier = f64::max(0.0, price * scale);
         priced.push((scaled, Active { kind: ActiveKind::Constraint(i), multiplier }));
     }
-    // What is below the residual of the conditions themselves says nothing.
-    let residual = kkt(program, &ended.point, &ended.lin, m).optimality;
-    priced.retain(|(scaled, _)| *scaled > NEGLIGIBLE.max(10.0 * residual));
+    let least = significant(program, ended);
+    priced.retain(|(scaled, _)| *scaled > least);
     priced.sort_by(|a, b| b.0.total_cmp(&a.0));
     priced.into_iter().map(|(_, active)| active).collect()
 }
@@ -241,6 +269,8 @@ fn without_values(status: Status, message: String, parameters: Vec<f64>, section
         multipliers: Vec::new(),
         measures: Vec::new(),
         active: Vec::new(),
+        curvature: None,
+        sensitivities: Vec::new(),
         kink: None,
         iterations: 0,
         kkt_residual: f64::NAN,
@@ -249,7 +279,7 @@ fn without_values(status: Status, message: String, parameters: Vec<f64>, section
         conflict: None,
         confirmation: None,
     };
-    Verdict { solution, violation: f64::INFINITY }
+    Verdict { solution, violation: f64::INFINITY, nominal: Vec::new() }
 }
 
 /// The search's starting point as a point of the program.

@@ -1,10 +1,14 @@
 //! The verdict of an optimisation, as JSON and for people.
 
+use super::verdict;
 use crate::cli::output;
 use gaitc_compiler::front::{format_number, format_quantity, format_si, in_unit};
 use gaitc_compiler::ir::{Constraint, Model, Node, Problem, Sense, Symbol};
-use gaitc_runtime::optimize::{Active, ActiveKind, Solution, Status};
+use gaitc_runtime::optimize::{Active, ActiveKind, Sensitivity, Solution, Status};
 use serde_json::{Map, Value, json};
+
+/// Fixed parameters that the table shows; JSON has all.
+const MOST_SENSITIVITIES: usize = 5;
 
 /// A solved problem with the names and units of its spec.
 pub(super) struct Report<'a> {
@@ -33,19 +37,19 @@ impl Report<'_> {
                 "constraint": self.constraint(a.kind),
                 "multiplier": a.multiplier,
             })).collect::<Vec<_>>(),
+            "sensitivities": s.sensitivities.iter().map(|q| json!({
+                "parameter": self.spec.parameters[q.parameter].name,
+                "derivative": q.derivative,
+                "per_percent": 0.01 * q.derivative * s.parameters[q.parameter],
+            })).collect::<Vec<_>>(),
+            "second_order": s.curvature.as_ref().map(|c| verdict::second_order_json(self.spec, c)),
             "iterations": s.iterations,
             "kkt_residual": s.kkt_residual,
             "starts": { "run": s.starts.run, "converged": s.starts.converged },
             "optima": self.optima_json(),
             "conflict": self.conflict_json(),
             "reached": self.reached_json(),
-            "confirmation": s.confirmation.as_ref().map(|c| json!({
-                "residual": c.residual,
-                "measures": c.measures,
-                "linearisation": c.linearisation,
-                "maps": c.maps,
-                "remaining": c.remaining,
-            })),
+            "confirmation": s.confirmation.as_ref().map(verdict::confirmation_json),
         }));
     }
 
@@ -89,6 +93,7 @@ impl Report<'_> {
             let rows = s.active.iter().map(|a| vec![self.constraint(a.kind), self.price(a)]);
             text += &format!("\n{}", output::table(&["what limits it", "price"], rows));
         }
+        text += &self.sensitivities();
         let mut gait: Vec<Vec<String>> = (self.coordinate_names().into_iter().zip(&s.section))
             .map(|(name, &value)| {
                 let unit = self.spec.states.iter().find(|q| &q.name == name).map_or("", |q| q.unit.as_str());
@@ -100,10 +105,38 @@ impl Report<'_> {
         gait.extend(measures.map(|(m, &value)| vec![m.name.clone(), format_quantity(value, &m.unit)]));
         text += &format!("\n{}{}", output::table(&["gait", "value"], gait), output::measures_hint(self.spec));
         text += &self.optima_text();
+        text += &verdict::lines(self.spec, self.problem, s);
         text + &format!(
             "\n{} iterations, KKT residual {:.0e}, {} of {} starts converged\n",
             s.iterations, s.kkt_residual, s.starts.converged, s.starts.run
         )
+    }
+
+    /// How the optimum follows what is held fixed: the parameters that matter most, for 1 % more and for one unit more.
+    fn sensitivities(&self) -> String {
+        let s = self.solution;
+        let matters = |q: &&Sensitivity| q.derivative != 0.0 && s.parameters[q.parameter] != 0.0;
+        let rows: Vec<Vec<String>> = (s.sensitivities.iter().filter(matters).take(MOST_SENSITIVITIES))
+            .map(|q| {
+                let parameter = &self.spec.parameters[q.parameter];
+                let value = s.parameters[q.parameter];
+                let step = 1.0 / in_unit(1.0, &parameter.unit);
+                vec![
+                    parameter.name.clone(),
+                    format_quantity(value, &parameter.unit),
+                    signed(&self.objective_quantity(0.01 * q.derivative * value)),
+                    format!("{} per {}", signed(&self.objective_quantity(q.derivative * step)), one(&parameter.unit)),
+                ]
+            })
+            .collect();
+        if rows.is_empty() {
+            return String::new();
+        }
+        let more = format!("1 % more: {}", self.problem.objective_text);
+        let others = s.sensitivities.iter().filter(matters).count().saturating_sub(MOST_SENSITIVITIES);
+        let hint =
+            if others > 0 { format!("{others} more held fixed that matter less: --json\n") } else { String::new() };
+        format!("\n{}{hint}", output::table(&["held fixed", "value", &more, "or"], rows))
     }
 
     /// Name, value and range of each varied parameter.
@@ -191,6 +224,11 @@ fn named<'n>(names: impl Iterator<Item = &'n String>, values: &[f64]) -> Map<Str
     names.zip(values).map(|(name, value)| (name.clone(), json!(value))).collect()
 }
 
+/// With its sign, also where it is a plus.
+fn signed(quantity: &str) -> String {
+    if quantity.starts_with('-') { quantity.to_owned() } else { format!("+{quantity}") }
+}
+
 /// One of a unit, as it stands behind `per`.
 fn one(unit: &str) -> String {
     match unit.trim() {
@@ -205,6 +243,7 @@ pub(super) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",
+        Status::Saddle => "saddle",
         Status::Infeasible => "infeasible",
         Status::Undefined => "undefined",
         Status::Interrupted => "interrupted",
