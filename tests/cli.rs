@@ -157,6 +157,28 @@ fn a_price_is_in_the_unit_of_its_constraint() {
 }
 
 #[test]
+fn an_optimum_comes_with_its_reasons() {
+    let (code, found) = json(&["optimize", "prescribed_length"]);
+    assert_eq!(code, 0, "{found:#}");
+    let second = &found["second_order"];
+    assert_eq!((second["shape"].as_str(), second["constraints"].as_u64()), (Some("vertex"), Some(1)));
+    let omega = found["sensitivities"].as_array().unwrap().iter().find(|s| s["parameter"] == "omega").unwrap();
+    let value = found["parameters"]["omega"].as_f64().unwrap();
+    let percent = 0.01 * value * omega["derivative"].as_f64().unwrap();
+    approx::assert_relative_eq!(omega["per_percent"].as_f64().unwrap(), percent, max_relative = 1e-12);
+    let confirmation = &found["confirmation"];
+    assert_eq!(confirmation["disturbed"]["outcome"], "stays");
+    assert_eq!(confirmation["disturbed"]["maps"], 1000);
+    assert_eq!(confirmation["independent"]["route"], "Radau IIA");
+    let (_, table, _) = text(&["optimize", "prescribed_length"]);
+    for part in ["held fixed", "a vertex: one active constraint, one parameter", "confirmed: 1,000 disturbed maps"] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+    let (_, table, _) = text(&["optimize", "angle_switched"]);
+    assert!(table.contains("not stable, and a small deviation grows"), "{table}");
+}
+
+#[test]
 fn multiple_shooting_finds_the_same_gait() {
     let radius = |segments: &str| {
         let (code, gait) = json(&["gait", "slip_runner", "--segments", segments]);

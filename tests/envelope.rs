@@ -24,7 +24,7 @@ fn optimum(model: &Loaded, problem: &str, parameters: Vec<f64>, section: Vec<f64
 fn check(name: &str, problem: &str, only: &[&str]) {
     let model = load(name, None).unwrap();
     let best = optimum(&model, problem, model.parameters(), model.start());
-    assert_eq!(best.confirmation.as_ref().unwrap().independent.is_some(), true);
+    assert!(best.confirmation.as_ref().unwrap().independent.is_some());
     assert_ne!(best.curvature.as_ref().unwrap().shape, Shape::Saddle);
     let share = |i: usize| best.sensitivities[i].derivative * best.parameters[best.sensitivities[i].parameter];
     let largest = share(0).abs();

@@ -207,6 +207,26 @@ fn a_parameter_without_a_derivative_is_left_out() {
 }
 
 #[test]
+fn a_largest_value_at_both_ends_of_a_map_has_one_sensitivity() {
+    // On a gait start and end are the same, and rounding decides which of them is the larger.
+    let map = Closed::new(1, 2, 1, |z, p| {
+        let next = about(z, &[p[0] * 0.7 + p[1] * 0.3], &[vec![c(0.4)]]);
+        let largest = if next[0].v > z[0].v { next[0] } else { z[0] };
+        Some((next, vec![largest]))
+    });
+    for start in [0.05, 0.1, 0.15, 0.2, 0.25, 0.3] {
+        let objective = expression(|m, p| m[0] * 10.0 - p[0] * p[0] * 7.0);
+        let mut problem = problem(&map, Sense::Maximize, objective, &[start, start], &[(-1.0, 1.0)]);
+        problem.vary.truncate(1);
+        let solution = solved(&problem);
+        assert_eq!(solution.status, Status::Optimal);
+        assert_relative_eq!(solution.parameters[0], 0.5, epsilon = 1e-6);
+        assert_relative_eq!(sensitivity(&solution, 1), 3.0, epsilon = 1e-6);
+        assert_eq!(curvature(&solution).shape, Shape::Strict);
+    }
+}
+
+#[test]
 fn without_an_optimum_there_is_no_verdict_on_it() {
     let map = sine();
     let mut problem = plane(&map, Sense::Maximize, expression(|m, _| m[0]), &[0.1, 0.1, 0.0, 0.0]);
@@ -318,10 +338,10 @@ fn a_second_route_that_disagrees_is_named() {
 
 #[test]
 fn a_kink_at_the_gait_shows_under_disturbances() {
-    // What a central difference cannot see: the map bends at the gait itself.
+    // What neither a central difference nor one disturbed start can see: the map bends at the gait itself.
     let map = Closed::new(1, 1, 1, |z, p| {
         let e = z[0] - p[0].sin();
-        let bend = if e.v < 0.0 { -0.3 } else { 0.3 };
+        let bend = if e.v < 0.0 { 0.3 } else { -0.3 };
         let slope = if e.v.abs() < 1e-9 { 0.0 } else { bend };
         Some((vec![p[0].sin() + e * (0.4 + slope)], vec![z[0]]))
     });

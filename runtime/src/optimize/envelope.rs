@@ -5,7 +5,7 @@
 //! and to the active constraints, each at its price. So the program is linearised once more there, with the fixed
 //! parameters as further unknowns.
 
-use super::kkt::lagrangian_gradient;
+use super::kkt::gait_gradient;
 use super::problem::Vary;
 use super::program::{Failure, Program};
 use super::search::Ended;
@@ -47,7 +47,7 @@ fn of(program: &Program<'_>, ended: &Ended, fixed: &[usize]) -> Result<Vec<Sensi
     let radius = program.variables.epigraph_at().map_or(0.0, |at| point.u[at] * program.variables.unit(at));
     let u = extended.variables.pack(&point.parameters, &point.section, radius);
     let at = extended.evaluate(&DVector::from_vec(u))?;
-    let gradient = lagrangian_gradient(&extended.linearise(&at)?, &ended.multipliers);
+    let gradient = gait_gradient(&extended, &extended.linearise(&at)?, &ended.multipliers);
     let scale = program.sign() * program.objective_scale;
     let derivative = |i: usize| scale * gradient[i] / extended.variables.unit(i);
     let found = |(i, &parameter): (usize, &usize)| Sensitivity { parameter, derivative: derivative(i) };

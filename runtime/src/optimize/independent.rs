@@ -77,7 +77,7 @@ fn judge(problem: &Problem<'_>, claimed: &Claimed<'_>, found: &Found) -> Result<
         |(least, multiple): (f64, f64), uncertain: f64| least.max(multiple * relative).max(UNCERTAIN * uncertain);
     let compared =
         [("the map", image, bound(IMAGE, found.uncertain.0)), ("the Jacobian", by, bound(JACOBIAN, found.uncertain.1))];
-    match compared.into_iter().find(|(_, value, bound)| !(value <= bound)) {
+    match compared.into_iter().find(|(_, value, bound)| value.is_nan() || value > bound) {
         Some((what, value, bound)) => Err(format!(
             "{what} differs from that by {} by {value:.1e}, where {bound:.0e} is allowed",
             found.route.words()

@@ -72,6 +72,7 @@ pub(super) fn score(ratio: f64, relative: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)] // a failing test should say where
 mod tests {
     use super::super::noise::Noise;
     use super::*;

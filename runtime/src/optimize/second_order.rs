@@ -5,7 +5,7 @@
 //! two step sizes: what they differ by, and what the result lacks of symmetry, says how far it can be trusted.
 
 use super::critical_cone::{CriticalCone, Sign, sign};
-use super::kkt::lagrangian_gradient;
+use super::kkt::gait_gradient;
 use super::problem::Vary;
 use super::program::{Failure, Point, Program};
 use super::search::Ended;
@@ -137,10 +137,10 @@ impl<'a> Widened<'a> {
         Ok(((narrow * 4.0 - wide) / 3.0, off))
     }
 
-    /// Gradient of the Lagrangian with these multipliers after a step in the narrow program's unknowns, in these.
+    /// Gradient of the Lagrangian with these multipliers of the inequalities after a step in the narrow program's unknowns, in these.
     fn gradient(&self, step: &DVector<f64>, multipliers: &Multipliers) -> Result<DVector<f64>, Failure> {
         let point = self.program.evaluate(&(&self.u + step.component_mul(&self.scale)))?;
         let lin = self.program.linearise(&point)?;
-        Ok(lagrangian_gradient(&lin, multipliers).component_mul(&self.scale))
+        Ok(gait_gradient(&self.program, &lin, multipliers).component_mul(&self.scale))
     }
 }
