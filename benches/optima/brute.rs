@@ -12,7 +12,7 @@ const POINTS: [usize; 3] = [201, 49, 21];
 /// So many local optima of the grid are polished, the best first.
 const POLISHED: usize = 6;
 /// Rounds of polishing: each looks around what the one before has found.
-const ROUNDS: [Round; 2] = [Round { reach: 1.0, until: 1e-4 }, Round { reach: 0.02, until: 1e-10 }];
+const ROUNDS: [Round; 2] = [Round { reach: 1.0, until: 1e-4 }, Round { reach: 0.02, until: 1e-9 }];
 
 /// How far a round looks, in spacings of the grid, and how finely, in fractions of the ranges.
 struct Round {

@@ -13,15 +13,30 @@ use super::program::{Failure, Point, Program};
 use super::quasi_newton::QuasiNewton;
 use super::subproblem::{Multipliers, Step, Subproblem, Unsolved, violation};
 use nalgebra::{DMatrix, DVector};
+use std::ops::AddAssign;
 
 /// Largest penalty; beyond it the constraints count as not satisfiable together.
 const LARGEST_PENALTY: f64 = 1e9;
+/// What the penalty is not lowered below.
+const SMALLEST_PENALTY: f64 = 0.1;
 /// Violation, relative to the radius, that Clarabel's tolerance leaves.
 const INTERIOR_POINT: f64 = 1e-7;
 const LARGEST_RADIUS: f64 = 4.0;
 const SMALLEST_RADIUS: f64 = 1e-13;
 /// Scaled objective below which it counts as unbounded.
 const UNBOUNDED: f64 = -1e7;
+/// Residual at which rough derivatives have given what they can.
+const ROUGHLY: f64 = 1e-5;
+/// A ratio of the merit's reduction to the promised one with which nothing needs correcting.
+const GOOD: f64 = 0.75;
+/// Part of the promised reduction that violations after the step may take before they are corrected.
+const SPOILT: f64 = 0.1;
+/// A gait whose step takes so many times longer, or shorter, is not the one that is followed.
+const OTHER_GAIT: f64 = 2.5;
+/// Most steps back to periodicity after a trial.
+const RESTORATIONS: usize = 3;
+/// How often the penalties may be lowered.
+const REDUCTIONS: usize = 20;
 /// A search that cannot go on is still an optimum when its residuals are within these.
 const ACCEPTABLE: Kkt = Kkt { optimality: 1e-5, feasibility: 1e-9 };
 /// The same, in multiples of the maps' relative tolerance, for maps of low accuracy: derivatives of the Jacobian lose
@@ -62,12 +77,17 @@ struct Search<'p, 'a> {
     point: Point,
     lin: Linearisation,
     model: QuasiNewton,
+    /// What a violated inequality costs.
     penalty: f64,
+    /// What a map that does not return to its start costs.
+    tie: f64,
     radius: f64,
     /// Inequalities are driven to this instead of 0, so that rounding does not leave them violated.
     margin: f64,
     /// Steps left beyond the tolerance: they cost little, make constraints hold strictly and gain digits.
     spare: usize,
+    /// How often the penalty may still be lowered: not without end, or the merit would not be one.
+    reductions: usize,
 }
 
 /// What an iteration did.
@@ -81,7 +101,7 @@ enum Progress {
 /// # Errors
 /// When the start has no derivatives, or for a problem that turns out to be wrong as stated.
 pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failure> {
-    let lin = program.linearise(&start)?;
+    let lin = program.linearise_to(&start, true)?;
     let settings = &program.problem.settings;
     let mut search = Search {
         program,
@@ -89,9 +109,11 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         lin,
         model: QuasiNewton::new(program.len()),
         penalty: 1.0,
+        tie: 1.0,
         radius: settings.trust_radius,
         margin: 0.5 * settings.attainable_feasibility(),
         spare: 3,
+        reductions: REDUCTIONS,
     };
     let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
     let mut iterations = 0;
@@ -106,6 +128,11 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
             Progress::Ended(end) => break end,
         }
     };
+    if search.lin.rough {
+        // The multipliers of the periodicity belong to the derivatives.
+        search.refine_derivatives().map_err(Failure::Wrong)?;
+        search.retie(&mut multipliers);
+    }
     Ok(Ended { end, point: search.point, lin: search.lin, multipliers, iterations })
 }
 
@@ -143,6 +170,9 @@ impl Search<'_, '_> {
         };
         *multipliers = step.multipliers.clone();
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
+        if self.lin.rough && kkt.residual() <= ROUGHLY {
+            return self.refine_derivatives();
+        }
         if self.within_tolerance(kkt) {
             let strictly = self.point.c.iter().all(|c| *c >= 0.0) && kkt.optimality <= 1e-3 * settings.optimality;
             if self.spare == 0 || strictly {
@@ -150,14 +180,40 @@ impl Search<'_, '_> {
             }
             self.spare -= 1;
         }
-        let problem = self.subproblem(&lower, &upper);
-        let promised =
-            self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
+        let promised = self.promised(&step, &lower, &upper);
         if promised < 0.0 || step.s.norm() < SMALLEST_RADIUS {
-            return Ok(Progress::Ended(End::Stalled));
+            // With a penalty just at the multipliers, violating a constraint costs as much as it gains.
+            let tempting = self.penalty < 1.5 * step.multipliers.inequality.amax();
+            if promised < 0.0 && tempting && self.penalty < LARGEST_PENALTY {
+                self.penalty *= 10.0;
+                return Ok(Progress::Going);
+            }
+            return if self.lin.rough { self.refine_derivatives() } else { Ok(Progress::Ended(End::Stalled)) };
         }
         self.advance(&step, promised, &lower, &upper)?;
+        if std::env::var("TRACE").is_ok() {
+            eprintln!("TRACE f {:.8} h {:.1e} viol {:.1e} radius {:.1e} mu {:.1e} tie {:.1e} step {:.1e} promised {:.1e} kkt {:.1e} u {:.5?} c {:.2?} lam {:.3?}", self.point.f, self.point.h.amax(), infeasibility(&self.point), self.radius, self.penalty, self.tie, step.s.norm(), promised, kkt.optimality, self.point.u.as_slice(), self.point.c.as_slice(), multipliers.inequality.as_slice());
+        }
         Ok(Progress::Going)
+    }
+
+    /// From here on the derivatives are as exact as they can be.
+    fn refine_derivatives(&mut self) -> Result<Progress, ProblemError> {
+        match self.program.linearise(&self.point) {
+            Ok(lin) => self.lin = lin,
+            Err(Failure::Wrong(error)) => return Err(error),
+            Err(_) => return Ok(Progress::Ended(End::Stalled)),
+        }
+        Ok(Progress::Going)
+    }
+
+    /// Multipliers of the periodicity that make the Lagrangian's gradient vanish in the coordinates.
+    fn retie(&self, multipliers: &mut Multipliers) {
+        let (d, at) = (self.point.h.len(), self.program.variables.section_at());
+        let pull = (&self.lin.f - self.lin.c.tr_mul(&multipliers.inequality)).rows(at, d).into_owned();
+        if let Some(y) = self.lin.h.columns(at, d).transpose().lu().solve(&pull) {
+            multipliers.equality = y;
+        }
     }
 
     /// Bounds on the step.
@@ -173,8 +229,21 @@ impl Search<'_, '_> {
         c.add_scalar(-self.margin)
     }
 
+    /// What violations cost.
+    fn cost(&self, h: &DVector<f64>, c: &DVector<f64>) -> f64 {
+        let none = DVector::zeros(0);
+        self.tie * h.lp_norm(1) + self.penalty * violation(&none, c)
+    }
+
     fn merit(&self, point: &Point) -> f64 {
-        point.f + self.penalty * violation(&point.h, &self.shifted(&point.c))
+        point.f + self.cost(&point.h, &self.shifted(&point.c))
+    }
+
+    /// By how much a step reduces the model of the merit.
+    fn promised(&self, step: &Step, lower: &[f64], upper: &[f64]) -> f64 {
+        let problem = self.subproblem(lower, upper);
+        let after = self.cost(&(problem.equality * &step.s + &problem.h), &(problem.inequality * &step.s + &problem.c));
+        self.cost(&problem.h, &problem.c) - after - problem.model(&step.s)
     }
 
     fn subproblem<'s>(&'s self, lower: &'s [f64], upper: &'s [f64]) -> Subproblem<'s> {
@@ -189,7 +258,18 @@ impl Search<'_, '_> {
             upper,
             radius: self.radius,
             penalty: self.penalty,
+            tie: self.tie,
         }
+    }
+
+    /// The step of a subproblem in which the linearised periodicity holds, where it can: a search that may trade it for
+    /// something else comes to places where hardly any map moves its start, but none returns to it.
+    fn tied(&self, mut problem: Subproblem<'_>) -> Result<Step, Unsolved> {
+        let tie = std::mem::replace(&mut problem.tie, f64::INFINITY);
+        solve(&problem).or_else(|_| {
+            problem.tie = tie;
+            solve(&problem)
+        })
     }
 
     /// A step, with the penalty raised until it reduces the violation nearly as much as any step could; `None` when
@@ -198,7 +278,7 @@ impl Search<'_, '_> {
         let tolerance = self.program.problem.settings.attainable_feasibility();
         // What an interior-point step leaves violated by its own tolerance is no reason to steer.
         let nothing = f64::max(tolerance, INTERIOR_POINT * self.radius);
-        let mut step = solve(&self.subproblem(lower, upper))?;
+        let mut step = self.tied(self.subproblem(lower, upper))?;
         let before = violation(&self.point.h, &self.shifted(&self.point.c));
         let after = |search: &Self, step: &Step| search.subproblem(lower, upper).violation(&step.s);
         if after(self, &step) > nothing {
@@ -208,14 +288,32 @@ impl Search<'_, '_> {
             }
             while before - after(self, &step) < 0.9 * (before - least) && self.penalty < LARGEST_PENALTY {
                 self.penalty *= 10.0;
-                step = solve(&self.subproblem(lower, upper))?;
+                step = self.tied(self.subproblem(lower, upper))?;
             }
         }
-        let needed = 1.5 * step.multipliers.largest();
-        if after(self, &step) <= nothing && needed > self.penalty {
-            self.penalty = needed.min(LARGEST_PENALTY);
-        }
+        self.adapt_penalties(&step.multipliers, after(self, &step) <= nothing);
         Ok(Some(step))
+    }
+
+    /// Penalties above the multipliers, so that the merit is exact; but not far above. One from a time when violations had to be
+    /// fought makes every curvature of a constraint look bad.
+    fn adapt_penalties(&mut self, multipliers: &Multipliers, feasible: bool) {
+        let mut lowered = false;
+        let mut adapted = |penalty: f64, largest: f64, raise: bool| {
+            let needed = (1.5 * largest).max(SMALLEST_PENALTY);
+            if needed > penalty && raise {
+                needed.min(LARGEST_PENALTY)
+            } else if self.reductions > 0 && feasible && penalty > 10.0 * needed {
+                lowered = true;
+                2.0 * needed
+            } else {
+                penalty
+            }
+        };
+        let tie = adapted(self.tie, multipliers.equality.amax(), true);
+        let penalty = adapted(self.penalty, multipliers.inequality.amax(), feasible);
+        self.reductions -= usize::from(lowered);
+        (self.tie, self.penalty) = (tie, penalty);
     }
 
     /// Least violation of the linearised constraints within the ball.
@@ -225,27 +323,37 @@ impl Search<'_, '_> {
         let mut problem = self.subproblem(lower, upper);
         problem.hessian = &hessian;
         problem.gradient = &gradient;
-        problem.penalty = 1.0;
-        let step = problem.solve()?;
+        (problem.penalty, problem.tie) = (1.0, 1.0);
+        let tied = Subproblem { tie: f64::INFINITY, ..problem.clone() }.solve();
+        let step = tied.or_else(|_| problem.solve())?;
         Ok(problem.violation(&step.s))
     }
 
-    /// Tries a step and its second-order correction; moves when the merit falls enough, and adapts the radius.
+    /// Tries a step, with its gait brought back to periodicity and the constraints' curvature taken into account where these
+    /// spoil it; moves when the merit falls enough, and adapts the radius.
     fn advance(&mut self, step: &Step, promised: f64, lower: &[f64], upper: &[f64]) -> Result<(), ProblemError> {
-        let mut s = step.s.clone();
-        let mut trial = self.trial(&s)?;
+        let mut trial = self.trial(&(&self.point.u + &step.s))?;
+        for _ in 0..RESTORATIONS {
+            let Some(point) = &trial else { break };
+            if self.tie * point.h.lp_norm(1) <= SPOILT * promised {
+                break;
+            }
+            let Some(restored) = self.restored(point)? else { break };
+            trial = Some(restored);
+        }
         let mut ratio = self.ratio(trial.as_ref(), promised);
-        if ratio < 0.25
+        if ratio < GOOD
             && let Some(point) = &trial
-            && let Some(corrected) = self.corrected(&s, point, lower, upper)
-            && let Some(second) = self.trial(&corrected)?
+            && self.cost(&point.h, &self.shifted(&point.c)) > SPOILT * promised
+            && let Some(corrected) = self.corrected(&(&point.u - &self.point.u), point, lower, upper)
+            && let Some(second) = self.trial(&(&self.point.u + corrected))?
         {
             let better = self.ratio(Some(&second), promised);
             if better > ratio {
-                (s, trial, ratio) = (corrected, Some(second), better);
+                (trial, ratio) = (Some(second), better);
             }
         }
-        let length = s.norm();
+        let length = step.s.norm();
         let moved = match trial {
             Some(point) if ratio > 1e-4 => self.accept(point, &step.multipliers)?,
             _ => false,
@@ -254,16 +362,34 @@ impl Search<'_, '_> {
             self.radius = 0.25 * f64::min(self.radius, length);
         } else if ratio < 0.25 {
             self.radius = 0.5 * f64::min(self.radius, length);
-        } else if ratio > 0.75 && length > 0.8 * self.radius {
+        } else if ratio > GOOD && length > 0.8 * self.radius {
             self.radius = f64::min(2.0 * self.radius, LARGEST_RADIUS);
         }
         Ok(())
     }
 
-    /// The point after a step; `None` where the map stops or a value is not finite.
-    fn trial(&self, s: &DVector<f64>) -> Result<Option<Point>, ProblemError> {
-        match self.program.evaluate(&(&self.point.u + s)) {
-            Ok(point) => Ok(Some(point)),
+    /// A step of Newton's method on the periodicity alone, with the parameters as they are: towards the gait near a point.
+    /// `None` where that does not come closer to one.
+    fn restored(&self, point: &Point) -> Result<Option<Point>, ProblemError> {
+        let (d, at) = (point.h.len(), self.program.variables.section_at());
+        let matrix = self.program.periodicity_jacobian(point).columns(at, d).into_owned();
+        let Some(correction) = matrix.lu().solve(&-&point.h).filter(|z| z.norm() <= self.radius) else {
+            return Ok(None);
+        };
+        let mut u = point.u.clone();
+        u.rows_mut(at, d).add_assign(&correction);
+        let closer = |other: &Point| other.h.lp_norm(1) < 0.5 * point.h.lp_norm(1);
+        Ok(self.trial(&u)?.filter(closer))
+    }
+
+    /// The point at some unknowns; `None` where the map stops, a value is not finite, or the gait's step is so much longer
+    /// or shorter that it is another gait (or, where it goes towards no length at all, none).
+    fn trial(&self, u: &DVector<f64>) -> Result<Option<Point>, ProblemError> {
+        match self.program.evaluate(u) {
+            Ok(point) => {
+                let (before, after) = (self.point.map.duration, point.map.duration);
+                Ok((after <= OTHER_GAIT * before && before <= OTHER_GAIT * after).then_some(point))
+            }
             Err(Failure::Wrong(error)) => Err(error),
             Err(_) => Ok(None),
         }
@@ -272,7 +398,7 @@ impl Search<'_, '_> {
     /// Reduction of the merit over what was promised; both are allowed the rounding of the maps.
     fn ratio(&self, trial: Option<&Point>, promised: f64) -> f64 {
         let error = f64::max(1e-13, 0.1 * self.program.problem.settings.accuracy.relative);
-        let rounding = error * (1.0 + self.point.f.abs() + self.penalty);
+        let rounding = error * (1.0 + self.point.f.abs() + self.penalty + self.tie);
         match trial {
             Some(point) => (self.merit(&self.point) - self.merit(point) + rounding) / (promised + rounding),
             None => f64::NEG_INFINITY,
@@ -284,12 +410,12 @@ impl Search<'_, '_> {
         let mut problem = self.subproblem(lower, upper);
         problem.h = &trial.h - &self.lin.h * s;
         problem.c = self.shifted(&trial.c) - &self.lin.c * s;
-        solve(&problem).ok().map(|step| step.s)
+        self.tied(problem).ok().map(|step| step.s)
     }
 
     /// Moves to a point; `false` when it has no derivatives.
     fn accept(&mut self, point: Point, multipliers: &Multipliers) -> Result<bool, ProblemError> {
-        let lin = match self.program.linearise(&point) {
+        let lin = match self.program.linearise_to(&point, self.lin.rough) {
             Ok(lin) => lin,
             Err(Failure::Wrong(error)) => return Err(error),
             Err(_) => return Ok(false),
