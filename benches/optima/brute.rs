@@ -51,7 +51,9 @@ fn flood(instance: &Instance, points: usize) -> Vec<Option<Sample>> {
     while let Some(place) = queue.pop_front() {
         let Some(here) = grid[number(&place, points)].clone() else { continue };
         for axis in 0..n {
-            for next in [place[axis].checked_sub(1), Some(place[axis] + 1).filter(|k| *k < points)].into_iter().flatten() {
+            for next in
+                [place[axis].checked_sub(1), Some(place[axis] + 1).filter(|k| *k < points)].into_iter().flatten()
+            {
                 let mut other = place.clone();
                 other[axis] = next;
                 let cell = &mut grid[number(&other, points)];
@@ -82,7 +84,8 @@ fn peaks(grid: &[Option<Sample>], points: usize, n: usize) -> Vec<&Sample> {
         let Some(sample) = sample else { continue };
         let place: Vec<usize> = (0..n).map(|axis| index / points.pow((n - 1 - axis) as u32) % points).collect();
         let beaten = (0..3_usize.pow(n as u32)).any(|code| {
-            let moved = place.iter().enumerate().map(|(axis, k)| (k + code / 3_usize.pow(axis as u32) % 3).wrapping_sub(1));
+            let moved =
+                place.iter().enumerate().map(|(axis, k)| (k + code / 3_usize.pow(axis as u32) % 3).wrapping_sub(1));
             let other: Vec<usize> = moved.collect();
             other.iter().all(|k| *k < points)
                 && grid[number(&other, points)].as_ref().is_some_and(|other| other.better(sample))
@@ -129,10 +132,7 @@ impl Lines<'_> {
     /// The best sample over the axes from `axis` on, the others as they stand in `at`; gaits are looked for near `guess`.
     fn best(&self, at: &mut Vec<f64>, axis: usize, guess: &mut Vec<f64>) -> Option<Sample> {
         if axis == at.len() {
-            let sample = self
-                .instance
-                .sample(at, guess)
-                .or_else(|| self.instance.sample(at, &self.centre.coordinates));
+            let sample = self.instance.sample(at, guess).or_else(|| self.instance.sample(at, &self.centre.coordinates));
             if let Some(sample) = &sample {
                 guess.clone_from(&sample.coordinates);
             }

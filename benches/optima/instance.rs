@@ -50,7 +50,9 @@ impl Instance {
         let loaded = load(case.model, None).expect("the spec is the compiled one");
         let mut spec = loaded.spec.clone();
         let problem = match &case.problem {
-            Asked::Named(name) => spec.problems.iter().find(|p| p.name == *name).expect("a problem of that name").clone(),
+            Asked::Named(name) => {
+                spec.problems.iter().find(|p| p.name == *name).expect("a problem of that name").clone()
+            }
             Asked::Flags(flags) => from_flags(&mut spec, flags),
         };
         Self { loaded, spec, problem }
@@ -87,7 +89,8 @@ impl Instance {
     /// Coordinates, measures and spectral radius of the gait near a guess.
     fn gait(&self, parameters: &[f64], guess: &[f64]) -> Option<(Vec<f64>, Vec<f64>, f64)> {
         let memory = self.loaded.memory();
-        let outcome = find_gait(self.loaded.compiled, &GaitRequest::new(parameters, &memory), guess).expect("a request");
+        let outcome =
+            find_gait(self.loaded.compiled, &GaitRequest::new(parameters, &memory), guess).expect("a request");
         let gait = outcome.gait.filter(|_| outcome.status == GaitStatus::Converged)?;
         let measures = gait.map.measures.as_slice().to_vec();
         Some((gait.coordinates.as_slice().to_vec(), measures, gait.spectral_radius))
@@ -98,7 +101,8 @@ impl Instance {
         let parameters = self.parameters(at);
         let (coordinates, measures, spectral_radius) = self.gait(&parameters, guess)?;
         let graph = &self.spec.graph;
-        let here = Environment { measures: &measures, parameters: &parameters, spectral_radius, ..Environment::default() };
+        let here =
+            Environment { measures: &measures, parameters: &parameters, spectral_radius, ..Environment::default() };
         let zeros = vec![0.0; measures.len()];
         let bare = Environment { measures: &zeros, parameters: &parameters, ..Environment::default() };
         let violation = |c: &gaitc_compiler::ir::Constraint| {

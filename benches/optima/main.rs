@@ -79,7 +79,13 @@ fn compare(case: &Case, only_starts: bool) -> Vec<String> {
     for run in &runs {
         if run.solution.status != Status::Optimal {
             let solution = &run.solution;
-            notes.push(format!("{}: start {:.3?}: {:?}: {}", case.title(), run.from, solution.status, solution.message));
+            notes.push(format!(
+                "{}: start {:.3?}: {:?}: {}",
+                case.title(),
+                run.from,
+                solution.status,
+                solution.message
+            ));
         }
     }
     let elsewhere = converged.iter().filter(|run| off(run) > SAME);
@@ -103,7 +109,10 @@ fn elsewhere_said(instance: &Instance, run: &Run) -> String {
     let value = run.solution.objective;
     // Rounding in the fractions can cost the last digits of a bound.
     if here.violation > 1e-7 || (here.objective - value).abs() > SAME * value.abs() {
-        return format!("{value:.8} ({place}), which brute force does not confirm (violation {:.1e}): WRONG", here.violation);
+        return format!(
+            "{value:.8} ({place}), which brute force does not confirm (violation {:.1e}): WRONG",
+            here.violation
+        );
     }
     let near = Sample { violation: 0.0, ..here };
     match brute::polish(instance, &near, AROUND) {
@@ -122,6 +131,8 @@ fn others(case: &Case, optima: &[Sample]) -> Vec<String> {
 /// Varied parameters with their names, SI units.
 fn place(instance: &Instance, at: &[f64]) -> String {
     let parameters = instance.parameters(at);
-    let one = |v: &gaitc_compiler::ir::Vary| format!("{} = {:.6}", instance.spec.parameters[v.parameter].name, parameters[v.parameter]);
+    let one = |v: &gaitc_compiler::ir::Vary| {
+        format!("{} = {:.6}", instance.spec.parameters[v.parameter].name, parameters[v.parameter])
+    };
     instance.problem.vary.iter().map(one).collect::<Vec<_>>().join(", ")
 }

@@ -51,7 +51,9 @@ pub fn run(instance: &Instance, count: usize, seed: u64) -> (Vec<Run>, usize) {
         let settings = Settings { starts: 1, ..Settings::default() };
         let start = Start { parameters, section, settings };
         let problem = assemble(&instance.loaded, &instance.spec, &instance.problem, start);
-        if std::env::var("TRACE").is_ok() { eprintln!("TRACE start {from:.3?} {:?}", problem.start); }
+        if std::env::var("TRACE").is_ok() {
+            eprintln!("TRACE start {from:.3?} {:?}", problem.start);
+        }
         let clock = Clock::start();
         let solution = solve(&problem).expect("the problem is well stated");
         runs.push(Run { from, solution, time: clock.elapsed() });

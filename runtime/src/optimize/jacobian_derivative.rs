@@ -4,15 +4,13 @@
 //! scaled unknowns: of fourth order along every unknown, or, while a search is still on its way, of second order along the
 //! gaits alone, which takes a third of the maps.
 
+use super::linearisation::following;
 use super::program::{Failure, Point, Program};
 use crate::return_map::{Points, Sensitivity};
 use nalgebra::{DMatrix, DVector};
 
 /// Step in scaled unknowns: truncation h^4 and rounding (error of the Jacobian)/h meet near here.
 const STEP: f64 = 1e-3;
-
-/// Where a gait moves by more than this for one unit of a parameter, the parameter is no coordinate along the gaits.
-const STEEP: f64 = 1e2;
 
 /// Offsets in steps with weights, and by how many steps the sum is divided.
 struct Stencil {
@@ -65,11 +63,11 @@ pub(super) fn jacobian_derivative(
 fn tangents(program: &Program<'_>, point: &Point) -> Option<DMatrix<f64>> {
     let (m, d) = (program.variables.free.len(), program.variables.nominal.len());
     let periodicity = program.periodicity_jacobian(point);
-    let coordinates = periodicity.columns(m, d).into_owned().lu().solve(&-periodicity.columns(0, m))?;
+    let inverse = following(&periodicity, m, d)?;
     let mut tangents = DMatrix::zeros(m + d, m);
     tangents.view_mut((0, 0), (m, m)).fill_with_identity();
-    tangents.view_mut((m, 0), (d, m)).copy_from(&coordinates);
-    tangents.iter().all(|x| x.abs() <= STEEP).then_some(tangents)
+    tangents.view_mut((m, 0), (d, m)).copy_from(&(-inverse * periodicity.columns(0, m)));
+    Some(tangents)
 }
 
 /// The same by second-order sensitivities; `None` where there are none.

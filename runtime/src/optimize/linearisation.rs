@@ -20,6 +20,18 @@ pub(super) struct Linearisation {
     pub(super) radius: Vec<f64>,
     /// The Jury rows are to about six digits, and right only for steps that stay with the gaits.
     pub(super) rough: bool,
+    /// The gait follows the parameters: a multiplier near 1, where gaits meet or branch, is not close.
+    pub(super) follows: bool,
+}
+
+/// Largest amplification of a disturbance of the periodicity with which a gait still follows the parameters.
+const STEEP: f64 = 30.0;
+
+/// The inverse of the periodicity's derivative in the coordinates (the last d of the first m + d columns), where it is not
+/// large: then each set of parameters near here has one gait near here.
+pub(super) fn following(periodicity: &DMatrix<f64>, m: usize, d: usize) -> Option<DMatrix<f64>> {
+    let inverse = periodicity.columns(m, d).into_owned().try_inverse()?;
+    inverse.iter().all(|x| x.abs() <= STEEP).then_some(inverse)
 }
 
 impl Program<'_> {
@@ -42,7 +54,9 @@ impl Program<'_> {
                 Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, point)?.transpose()),
                 // All rows of a block at once, when its first comes.
                 Row::Jury(of, 0) => {
-                    for (i, (gradient, slope)) in self.jury_gradients(of, point, &derivative.along)?.into_iter().enumerate() {
+                    for (i, (gradient, slope)) in
+                        self.jury_gradients(of, point, &derivative.along)?.into_iter().enumerate()
+                    {
                         c.set_row(k + i, &gradient.transpose());
                         radius[k + i] = slope;
                     }
@@ -52,7 +66,8 @@ impl Program<'_> {
         }
         let (f, h) = (self.objective_gradient(point)?, self.periodicity_jacobian(point));
         if f.iter().chain(h.iter()).chain(c.iter()).all(|x| x.is_finite()) {
-            Ok(Linearisation { f, h, c, radius, rough: derivative.rough })
+            let follows = following(&h, self.variables.free.len(), self.variables.nominal.len()).is_some();
+            Ok(Linearisation { f, h, c, radius, rough: derivative.rough, follows })
         } else {
             Err(Failure::NotFinite("a derivative".to_owned()))
         }

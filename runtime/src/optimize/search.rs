@@ -183,7 +183,7 @@ impl Search<'_, '_> {
         let promised = self.promised(&step, &lower, &upper);
         if promised < 0.0 || step.s.norm() < SMALLEST_RADIUS {
             // With a penalty just at the multipliers, violating a constraint costs as much as it gains.
-            let tempting = self.penalty < 1.5 * step.multipliers.inequality.amax();
+            let tempting = self.penalty < 100.0 * step.multipliers.inequality.amax();
             if promised < 0.0 && tempting && self.penalty < LARGEST_PENALTY {
                 self.penalty *= 10.0;
                 return Ok(Progress::Going);
@@ -192,7 +192,21 @@ impl Search<'_, '_> {
         }
         self.advance(&step, promised, &lower, &upper)?;
         if std::env::var("TRACE").is_ok() {
-            eprintln!("TRACE f {:.8} h {:.1e} viol {:.1e} radius {:.1e} mu {:.1e} tie {:.1e} step {:.1e} promised {:.1e} kkt {:.1e} u {:.5?} c {:.2?} lam {:.3?}", self.point.f, self.point.h.amax(), infeasibility(&self.point), self.radius, self.penalty, self.tie, step.s.norm(), promised, kkt.optimality, self.point.u.as_slice(), self.point.c.as_slice(), multipliers.inequality.as_slice());
+            eprintln!(
+                "TRACE f {:.8} h {:.1e} viol {:.1e} radius {:.1e} mu {:.1e} tie {:.1e} step {:.1e} promised {:.1e} kkt {:.1e} u {:.5?} c {:.2?} lam {:.3?}",
+                self.point.f,
+                self.point.h.amax(),
+                infeasibility(&self.point),
+                self.radius,
+                self.penalty,
+                self.tie,
+                step.s.norm(),
+                promised,
+                kkt.optimality,
+                self.point.u.as_slice(),
+                self.point.c.as_slice(),
+                multipliers.inequality.as_slice()
+            );
         }
         Ok(Progress::Going)
     }
@@ -263,8 +277,13 @@ impl Search<'_, '_> {
     }
 
     /// The step of a subproblem in which the linearised periodicity holds, where it can: a search that may trade it for
-    /// something else comes to places where hardly any map moves its start, but none returns to it.
+    /// something else comes to places where hardly any map moves its start, but none returns to it. Not where gaits meet
+    /// or branch, and all that keeps to them leads along the branch.
     fn tied(&self, mut problem: Subproblem<'_>) -> Result<Step, Unsolved> {
+        if !self.lin.follows {
+            problem.tie = problem.tie.max(problem.penalty);
+            return solve(&problem);
+        }
         let tie = std::mem::replace(&mut problem.tie, f64::INFINITY);
         solve(&problem).or_else(|_| {
             problem.tie = tie;
@@ -288,6 +307,7 @@ impl Search<'_, '_> {
             }
             while before - after(self, &step) < 0.9 * (before - least) && self.penalty < LARGEST_PENALTY {
                 self.penalty *= 10.0;
+                self.tie = self.tie.max(self.penalty);
                 step = self.tied(self.subproblem(lower, upper))?;
             }
         }
@@ -313,7 +333,9 @@ impl Search<'_, '_> {
         let tie = adapted(self.tie, multipliers.equality.amax(), true);
         let penalty = adapted(self.penalty, multipliers.inequality.amax(), feasible);
         self.reductions -= usize::from(lowered);
-        (self.tie, self.penalty) = (tie, penalty);
+        // Where periodicity is a constraint like the others, none is worth more than the other.
+        let both = tie.max(penalty);
+        (self.tie, self.penalty) = if self.lin.follows { (tie, penalty) } else { (both, both) };
     }
 
     /// Least violation of the linearised constraints within the ball.
@@ -324,7 +346,8 @@ impl Search<'_, '_> {
         problem.hessian = &hessian;
         problem.gradient = &gradient;
         (problem.penalty, problem.tie) = (1.0, 1.0);
-        let tied = Subproblem { tie: f64::INFINITY, ..problem.clone() }.solve();
+        let tie = if self.lin.follows { f64::INFINITY } else { 1.0 };
+        let tied = Subproblem { tie, ..problem.clone() }.solve();
         let step = tied.or_else(|_| problem.solve())?;
         Ok(problem.violation(&step.s))
     }
