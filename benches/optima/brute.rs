@@ -8,11 +8,13 @@ use super::instance::{Instance, Sample};
 use std::collections::VecDeque;
 
 /// Points along each axis for one, two and three parameters.
-const POINTS: [usize; 3] = [201, 49, 21];
+const POINTS: [usize; 3] = [101, 33, 13];
 /// So many local optima of the grid are polished, the best first.
-const POLISHED: usize = 6;
+const POLISHED: usize = 3;
+/// How far from the end of a range a value is compared with that at the end itself, in fractions of the range.
+const NEXT_TO: f64 = 1e-7;
 /// Rounds of polishing: each looks around what the one before has found.
-const ROUNDS: [Round; 2] = [Round { reach: 1.0, until: 1e-4 }, Round { reach: 0.02, until: 1e-9 }];
+const ROUNDS: [Round; 2] = [Round { reach: 1.0, until: 1e-3 }, Round { reach: 0.05, until: 1e-8 }];
 
 /// How far a round looks, in spacings of the grid, and how finely, in fractions of the ranges.
 struct Round {
@@ -151,10 +153,13 @@ impl Lines<'_> {
             }
             sample
         };
-        // The ends themselves belong to the box: an optimum at the end of a range lies there exactly.
-        for end in [low, high] {
-            if end == 0.0 || end == 1.0 {
-                value(end);
+        // The ends of a range belong to it. Where it gets worse from there on, the best of the line is the end itself.
+        for (end, next) in [(low, low + NEXT_TO), (high, high - NEXT_TO)] {
+            if (end == 0.0 || end == 1.0)
+                && let Some(at_end) = value(end)
+                && value(next).is_some_and(|next| at_end.better(&next))
+            {
+                return best;
             }
         }
         golden(&mut value, low, high, self.until);

@@ -18,6 +18,7 @@ use instance::{Instance, Sample};
 use problems::{CASES, Case};
 use starts::Run;
 use std::collections::BTreeMap;
+use std::io::Write as _;
 use std::time::Instant;
 
 const STARTS: usize = 20;
@@ -39,6 +40,7 @@ fn main() {
     let mut notes = Vec::new();
     for case in CASES.iter().filter(wanted) {
         notes.extend(compare(case, only_starts));
+        std::io::stdout().flush().expect("standard output takes the row");
     }
     for note in notes {
         println!("- {note}");

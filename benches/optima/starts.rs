@@ -5,6 +5,9 @@ use gaitc::problem::{Start, assemble};
 use gaitc_runtime::optimize::{Settings, Solution, solve};
 use std::time::{Duration, Instant};
 
+/// Processor time that is counted well enough to be used.
+const TICKS: Duration = Duration::from_millis(20);
+
 /// Processor time of this thread where the system tells (Linux), else time: what others do on the machine does not count.
 struct Clock {
     wall: Instant,
@@ -22,10 +25,10 @@ impl Clock {
     }
 
     fn elapsed(&self) -> Duration {
-        match (self.cpu, Self::cpu()) {
-            (Some(before), Some(now)) => Duration::from_nanos(now.saturating_sub(before)),
-            _ => self.wall.elapsed(),
-        }
+        let wall = self.wall.elapsed();
+        let cpu = self.cpu.zip(Self::cpu()).map(|(before, now)| Duration::from_nanos(now.saturating_sub(before)));
+        // The system counts in ticks of a few milliseconds.
+        cpu.filter(|cpu| *cpu > TICKS).map_or(wall, |cpu| cpu.min(wall))
     }
 }
 
@@ -51,9 +54,6 @@ pub fn run(instance: &Instance, count: usize, seed: u64) -> (Vec<Run>, usize) {
         let settings = Settings { starts: 1, ..Settings::default() };
         let start = Start { parameters, section, settings };
         let problem = assemble(&instance.loaded, &instance.spec, &instance.problem, start);
-        if std::env::var("TRACE").is_ok() {
-            eprintln!("TRACE start {from:.3?} {:?}", problem.start);
-        }
         let clock = Clock::start();
         let solution = solve(&problem).expect("the problem is well stated");
         runs.push(Run { from, solution, time: clock.elapsed() });
