@@ -23,7 +23,7 @@ const SAME: f64 = 1e-6;
 #[test]
 fn random_starts_end_in_optima_of_brute_force() {
     let (mut run, mut converged, mut said) = (0, 0, Vec::new());
-    for case in CASES {
+    for case in CASES.iter().filter(|case| !case.optima.is_empty()) {
         let instance = Instance::of(case);
         let (runs, _) = starts::run(&instance, STARTS, 7);
         assert_eq!(runs.len(), STARTS, "{}: too few gaits to start from", case.title());

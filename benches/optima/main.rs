@@ -74,7 +74,7 @@ fn compare(case: &Case, only_starts: bool) -> Vec<String> {
         middle(runs.iter().map(|run| run.solution.iterations as f64).collect()),
         middle(runs.iter().map(|run| run.time.as_secs_f64() * 1e3).collect()),
     );
-    let mut notes: Vec<String> = others(case, &optima);
+    let mut notes: Vec<String> = Vec::new();
     if without > 0 {
         notes.push(format!("{}: {without} random points without a gait were drawn again", case.title()));
     }
@@ -123,11 +123,6 @@ fn elsewhere_said(instance: &Instance, run: &Run) -> String {
         }
         _ => format!("the local optimum {value:.8} ({place})"),
     }
-}
-
-fn others(case: &Case, optima: &[Sample]) -> Vec<String> {
-    let said = |sample: &Sample| format!("{}: brute force also finds {:.10}", case.title(), sample.objective);
-    optima.iter().skip(1).map(said).collect()
 }
 
 /// Varied parameters with their names, SI units.
