@@ -50,7 +50,7 @@ pub(super) fn refine(problem: &Subproblem<'_>, step: &Step) -> Option<Step> {
 /// Step and multipliers on an active set; violated rows keep their pull.
 fn assemble(problem: &Subproblem<'_>, step: &Step, active: &[Active], mut s: DVector<f64>, y: &DVector<f64>) -> Step {
     let mut multipliers = Multipliers::zeros(s.len(), problem.h.len(), problem.c.len());
-    multipliers.equality = step.multipliers.equality.map(|y| penalty_sign(y, problem.penalty));
+    multipliers.equality = step.multipliers.equality.map(|y| penalty_sign(y, problem.tie));
     for i in 0..problem.c.len() {
         if step.multipliers.inequality[i] > 0.999 * problem.penalty {
             multipliers.inequality[i] = problem.penalty;
@@ -109,7 +109,7 @@ fn guess(problem: &Subproblem<'_>, step: &Step) -> (Vec<Active>, Vec<DVector<f64
     let m = &step.multipliers;
     let (mut active, mut violated) = (Vec::new(), Vec::new());
     for i in 0..problem.h.len() {
-        let pull = penalty_sign(m.equality[i], problem.penalty);
+        let pull = penalty_sign(m.equality[i], problem.tie);
         if pull == 0.0 {
             active.push(Active::Equality(i));
         } else {
@@ -202,7 +202,7 @@ fn holds(problem: &Subproblem<'_>, step: &Step, active: &[Active]) -> bool {
     let rows = (0..c.len()).all(|i| m.inequality[i] >= sign && (c[i] >= -slack || violated(i)));
     let signs = m.low.iter().chain(m.high.iter()).all(|&y| y >= sign);
     let capped = active.iter().all(|row| match *row {
-        Active::Equality(i) => m.equality[i].abs() <= problem.penalty * 1.001,
+        Active::Equality(i) => m.equality[i].abs() <= problem.tie * 1.001,
         Active::Inequality(i) => m.inequality[i] <= problem.penalty * 1.001,
         Active::Low(_) | Active::High(_) => true,
     });

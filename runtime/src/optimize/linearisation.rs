@@ -1,7 +1,7 @@
 //! First derivatives of the nonlinear program in the scaled unknowns, by the chain rule through measures, the return
 //! map's Jacobian, its characteristic polynomial and the Jury rows.
 
-use super::jacobian_derivative::jacobian_derivative;
+use super::jacobian_derivative::{JacobianDerivative, jacobian_derivative};
 use super::jury;
 use super::problem::{ConstraintKind, Value};
 use super::program::{Failure, Point, Program, Row};
@@ -18,13 +18,35 @@ pub(super) struct Linearisation {
     pub(super) c: DMatrix<f64>,
     /// For Jury rows: derivative with respect to the bound r, SI units; 0 for margins.
     pub(super) radius: Vec<f64>,
+    /// The Jury rows are to about six digits, and right only for steps that stay with the gaits.
+    pub(super) rough: bool,
+    /// The gait follows the parameters: a multiplier near 1, where gaits meet or branch, is not close.
+    pub(super) follows: bool,
+}
+
+/// Largest amplification of a disturbance of the periodicity with which a gait still follows the parameters.
+const STEEP: f64 = 30.0;
+
+/// The inverse of the periodicity's derivative in the coordinates (the last d of the first m + d columns), where it is not
+/// large: then each set of parameters near here has one gait near here.
+pub(super) fn following(periodicity: &DMatrix<f64>, m: usize, d: usize) -> Option<DMatrix<f64>> {
+    let inverse = periodicity.columns(m, d).into_owned().try_inverse()?;
+    inverse.iter().all(|x| x.abs() <= STEEP).then_some(inverse)
 }
 
 impl Program<'_> {
     /// All first derivatives at a point.
     pub(super) fn linearise(&self, point: &Point) -> Result<Linearisation, Failure> {
+        self.linearise_to(point, false)
+    }
+
+    /// The same; `rough` where six digits and steps that stay with the gaits are enough (see `jacobian_derivative`).
+    pub(super) fn linearise_to(&self, point: &Point, rough: bool) -> Result<Linearisation, Failure> {
         let wanted = self.rows.iter().any(|row| matches!(row, Row::Jury(..)));
-        let derivative = if wanted { jacobian_derivative(self, point)? } else { Vec::new() };
+        let derivative = match wanted {
+            true => jacobian_derivative(self, point, rough)?,
+            false => JacobianDerivative { along: Vec::new(), rough: false },
+        };
         let mut c = DMatrix::zeros(self.rows.len(), self.len());
         let mut radius = vec![0.0; self.rows.len()];
         for (k, row) in self.rows.iter().enumerate() {
@@ -32,7 +54,9 @@ impl Program<'_> {
                 Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, point)?.transpose()),
                 // All rows of a block at once, when its first comes.
                 Row::Jury(of, 0) => {
-                    for (i, (gradient, slope)) in self.jury_gradients(of, point, &derivative)?.into_iter().enumerate() {
+                    for (i, (gradient, slope)) in
+                        self.jury_gradients(of, point, &derivative.along)?.into_iter().enumerate()
+                    {
                         c.set_row(k + i, &gradient.transpose());
                         radius[k + i] = slope;
                     }
@@ -42,7 +66,8 @@ impl Program<'_> {
         }
         let (f, h) = (self.objective_gradient(point)?, self.periodicity_jacobian(point));
         if f.iter().chain(h.iter()).chain(c.iter()).all(|x| x.is_finite()) {
-            Ok(Linearisation { f, h, c, radius })
+            let follows = following(&h, self.variables.free.len(), self.variables.nominal.len()).is_some();
+            Ok(Linearisation { f, h, c, radius, rough: derivative.rough, follows })
         } else {
             Err(Failure::NotFinite("a derivative".to_owned()))
         }
@@ -71,7 +96,8 @@ impl Program<'_> {
         Ok(rows.iter().map(|row| (gradient(row), row.radius / reference)).collect())
     }
 
-    fn periodicity_jacobian(&self, point: &Point) -> DMatrix<f64> {
+    /// Of the periodicity, d x n.
+    pub(super) fn periodicity_jacobian(&self, point: &Point) -> DMatrix<f64> {
         let d = self.variables.nominal.len();
         let mut h = DMatrix::zeros(d, self.len());
         for i in 0..d {

@@ -5,9 +5,11 @@
 //! order when only the constraints' curvature spoils it (Maratos), and learns the Lagrangian's Hessian by damped BFGS.
 //! The method: R. Fletcher, *Practical Methods of Optimization*, 14.4; penalty steering after Byrd, Nocedal and Waltz.
 
+mod trial;
+
 use super::active_set::refine;
 use super::interrupt::Best;
-use super::kkt::{Kkt, infeasibility, kkt, lagrangian_gradient};
+use super::kkt::{Kkt, infeasibility, kkt};
 use super::linearisation::Linearisation;
 use super::problem::ProblemError;
 use super::program::{Failure, Point, Program};
@@ -17,12 +19,17 @@ use nalgebra::{DMatrix, DVector};
 
 /// Largest penalty; beyond it the constraints count as not satisfiable together.
 const LARGEST_PENALTY: f64 = 1e9;
+/// What the penalty is not lowered below.
+const SMALLEST_PENALTY: f64 = 0.1;
 /// Violation, relative to the radius, that Clarabel's tolerance leaves.
 const INTERIOR_POINT: f64 = 1e-7;
-const LARGEST_RADIUS: f64 = 4.0;
 const SMALLEST_RADIUS: f64 = 1e-13;
 /// Scaled objective below which it counts as unbounded.
 const UNBOUNDED: f64 = -1e7;
+/// Residual at which rough derivatives have given what they can.
+const ROUGHLY: f64 = 1e-5;
+/// How often the penalties may be lowered.
+const REDUCTIONS: usize = 20;
 /// A search that cannot go on is still an optimum when its residuals are within these.
 const ACCEPTABLE: Kkt = Kkt { optimality: 1e-5, feasibility: 1e-9 };
 /// The same, in multiples of the maps' relative tolerance, for maps of low accuracy: derivatives of the Jacobian lose
@@ -67,12 +74,17 @@ struct Search<'p, 'a> {
     point: Point,
     lin: Linearisation,
     model: QuasiNewton,
+    /// What a violated inequality costs.
     penalty: f64,
+    /// What a map that does not return to its start costs.
+    tie: f64,
     radius: f64,
     /// Inequalities are driven to this instead of 0, so that rounding does not leave them violated.
     margin: f64,
     /// Steps left beyond the tolerance: they cost little, make constraints hold strictly and gain digits.
     spare: usize,
+    /// How often the penalty may still be lowered: not without end, or the merit would not be one.
+    reductions: usize,
 }
 
 /// What an iteration did.
@@ -86,7 +98,7 @@ enum Progress {
 /// # Errors
 /// When the start has no derivatives, or for a problem that turns out to be wrong as stated.
 pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failure> {
-    let lin = program.linearise(&start)?;
+    let lin = program.linearise_to(&start, true)?;
     let settings = &program.problem.settings;
     let mut search = Search {
         program,
@@ -94,9 +106,11 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         lin,
         model: QuasiNewton::new(program.len()),
         penalty: 1.0,
+        tie: 1.0,
         radius: settings.trust_radius,
         margin: 0.5 * settings.attainable_feasibility(),
         spare: 3,
+        reductions: REDUCTIONS,
     };
     let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
     let mut iterations = 0;
@@ -117,6 +131,11 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
             Progress::Ended(end) => break end,
         }
     };
+    if search.lin.rough {
+        // The multipliers of the periodicity belong to the derivatives.
+        search.refine_derivatives().map_err(Failure::Wrong)?;
+        search.retie(&mut multipliers);
+    }
     Ok(Ended { end, point: search.point, lin: search.lin, multipliers, iterations })
 }
 
@@ -146,6 +165,9 @@ impl Search<'_, '_> {
         if self.point.f < UNBOUNDED && infeasibility(&self.point) < 1e-4 {
             return Ok(Progress::Ended(End::Unbounded));
         }
+        if self.lin.rough && self.radius < ROUGHLY {
+            return self.refine_derivatives();
+        }
         if self.radius < SMALLEST_RADIUS {
             return Ok(Progress::Ended(End::Stalled));
         }
@@ -157,6 +179,9 @@ impl Search<'_, '_> {
         };
         *multipliers = step.multipliers.clone();
         let kkt = kkt(self.program, &self.point, &self.lin, multipliers);
+        if self.lin.rough && kkt.residual() <= ROUGHLY {
+            return self.refine_derivatives();
+        }
         if self.within_tolerance(kkt) {
             let strictly = self.point.c.iter().all(|c| *c >= 0.0) && kkt.optimality <= 1e-3 * settings.optimality;
             if self.spare == 0 || strictly {
@@ -164,14 +189,37 @@ impl Search<'_, '_> {
             }
             self.spare -= 1;
         }
-        let problem = self.subproblem(&lower, &upper);
-        let promised =
-            self.penalty * (violation(&problem.h, &problem.c) - problem.violation(&step.s)) - problem.model(&step.s);
+        let promised = self.promised(&step, &lower, &upper);
         if promised < 0.0 || step.s.norm() < SMALLEST_RADIUS {
-            return Ok(Progress::Ended(End::Stalled));
+            // With a penalty just at the multipliers, violating a constraint costs as much as it gains.
+            let tempting = self.penalty < 100.0 * step.multipliers.inequality.amax();
+            if promised < 0.0 && tempting && self.penalty < LARGEST_PENALTY {
+                self.penalty *= 10.0;
+                return Ok(Progress::Going);
+            }
+            return if self.lin.rough { self.refine_derivatives() } else { Ok(Progress::Ended(End::Stalled)) };
         }
         self.advance(&step, promised, &lower, &upper)?;
         Ok(Progress::Going)
+    }
+
+    /// From here on the derivatives are as exact as they can be.
+    fn refine_derivatives(&mut self) -> Result<Progress, ProblemError> {
+        match self.program.linearise(&self.point) {
+            Ok(lin) => self.lin = lin,
+            Err(Failure::Wrong(error)) => return Err(error),
+            Err(_) => return Ok(Progress::Ended(End::Stalled)),
+        }
+        Ok(Progress::Going)
+    }
+
+    /// Multipliers of the periodicity that make the Lagrangian's gradient vanish in the coordinates.
+    fn retie(&self, multipliers: &mut Multipliers) {
+        let (d, at) = (self.point.h.len(), self.program.variables.section_at());
+        let pull = (&self.lin.f - self.lin.c.tr_mul(&multipliers.inequality)).rows(at, d).into_owned();
+        if let Some(y) = self.lin.h.columns(at, d).transpose().lu().solve(&pull) {
+            multipliers.equality = y;
+        }
     }
 
     /// Bounds on the step.
@@ -187,8 +235,21 @@ impl Search<'_, '_> {
         c.add_scalar(-self.margin)
     }
 
+    /// What violations cost.
+    fn cost(&self, h: &DVector<f64>, c: &DVector<f64>) -> f64 {
+        let none = DVector::zeros(0);
+        self.tie * h.lp_norm(1) + self.penalty * violation(&none, c)
+    }
+
     fn merit(&self, point: &Point) -> f64 {
-        point.f + self.penalty * violation(&point.h, &self.shifted(&point.c))
+        point.f + self.cost(&point.h, &self.shifted(&point.c))
+    }
+
+    /// By how much a step reduces the model of the merit.
+    fn promised(&self, step: &Step, lower: &[f64], upper: &[f64]) -> f64 {
+        let problem = self.subproblem(lower, upper);
+        let after = self.cost(&(problem.equality * &step.s + &problem.h), &(problem.inequality * &step.s + &problem.c));
+        self.cost(&problem.h, &problem.c) - after - problem.model(&step.s)
     }
 
     fn subproblem<'s>(&'s self, lower: &'s [f64], upper: &'s [f64]) -> Subproblem<'s> {
@@ -203,7 +264,23 @@ impl Search<'_, '_> {
             upper,
             radius: self.radius,
             penalty: self.penalty,
+            tie: self.tie,
         }
+    }
+
+    /// The step of a subproblem in which the linearised periodicity holds, where it can: a search that may trade it for
+    /// something else comes to places where hardly any map moves its start, but none returns to it. Not where gaits meet
+    /// or branch, and all that keeps to them leads along the branch.
+    fn tied(&self, mut problem: Subproblem<'_>) -> Result<Step, Unsolved> {
+        if !self.lin.follows {
+            problem.tie = problem.tie.max(problem.penalty);
+            return solve(&problem);
+        }
+        let tie = std::mem::replace(&mut problem.tie, f64::INFINITY);
+        solve(&problem).or_else(|_| {
+            problem.tie = tie;
+            solve(&problem)
+        })
     }
 
     /// A step, with the penalty raised until it reduces the violation nearly as much as any step could; `None` when
@@ -212,7 +289,7 @@ impl Search<'_, '_> {
         let tolerance = self.program.problem.settings.attainable_feasibility();
         // What an interior-point step leaves violated by its own tolerance is no reason to steer.
         let nothing = f64::max(tolerance, INTERIOR_POINT * self.radius);
-        let mut step = solve(&self.subproblem(lower, upper))?;
+        let mut step = self.tied(self.subproblem(lower, upper))?;
         let before = violation(&self.point.h, &self.shifted(&self.point.c));
         let after = |search: &Self, step: &Step| search.subproblem(lower, upper).violation(&step.s);
         if after(self, &step) > nothing {
@@ -222,14 +299,35 @@ impl Search<'_, '_> {
             }
             while before - after(self, &step) < 0.9 * (before - least) && self.penalty < LARGEST_PENALTY {
                 self.penalty *= 10.0;
-                step = solve(&self.subproblem(lower, upper))?;
+                self.tie = self.tie.max(self.penalty);
+                step = self.tied(self.subproblem(lower, upper))?;
             }
         }
-        let needed = 1.5 * step.multipliers.largest();
-        if after(self, &step) <= nothing && needed > self.penalty {
-            self.penalty = needed.min(LARGEST_PENALTY);
-        }
+        self.adapt_penalties(&step.multipliers, after(self, &step) <= nothing);
         Ok(Some(step))
+    }
+
+    /// Penalties above the multipliers, so that the merit is exact; but not far above. One from a time when violations had to be
+    /// fought makes every curvature of a constraint look bad.
+    fn adapt_penalties(&mut self, multipliers: &Multipliers, feasible: bool) {
+        let mut lowered = false;
+        let mut adapted = |penalty: f64, largest: f64, raise: bool| {
+            let needed = (1.5 * largest).max(SMALLEST_PENALTY);
+            if needed > penalty && raise {
+                needed.min(LARGEST_PENALTY)
+            } else if self.reductions > 0 && feasible && penalty > 10.0 * needed {
+                lowered = true;
+                2.0 * needed
+            } else {
+                penalty
+            }
+        };
+        let tie = adapted(self.tie, multipliers.equality.amax(), true);
+        let penalty = adapted(self.penalty, multipliers.inequality.amax(), feasible);
+        self.reductions -= usize::from(lowered);
+        // Where periodicity is a constraint like the others, none is worth more than the other.
+        let both = tie.max(penalty);
+        (self.tie, self.penalty) = if self.lin.follows { (tie, penalty) } else { (both, both) };
     }
 
     /// Least violation of the linearised constraints within the ball.
@@ -239,79 +337,11 @@ impl Search<'_, '_> {
         let mut problem = self.subproblem(lower, upper);
         problem.hessian = &hessian;
         problem.gradient = &gradient;
-        problem.penalty = 1.0;
-        let step = problem.solve()?;
+        (problem.penalty, problem.tie) = (1.0, 1.0);
+        let tie = if self.lin.follows { f64::INFINITY } else { 1.0 };
+        let tied = Subproblem { tie, ..problem.clone() }.solve();
+        let step = tied.or_else(|_| problem.solve())?;
         Ok(problem.violation(&step.s))
-    }
-
-    /// Tries a step and its second-order correction; moves when the merit falls enough, and adapts the radius.
-    fn advance(&mut self, step: &Step, promised: f64, lower: &[f64], upper: &[f64]) -> Result<(), ProblemError> {
-        let mut s = step.s.clone();
-        let mut trial = self.trial(&s)?;
-        let mut ratio = self.ratio(trial.as_ref(), promised);
-        if ratio < 0.25
-            && let Some(point) = &trial
-            && let Some(corrected) = self.corrected(&s, point, lower, upper)
-            && let Some(second) = self.trial(&corrected)?
-        {
-            let better = self.ratio(Some(&second), promised);
-            if better > ratio {
-                (s, trial, ratio) = (corrected, Some(second), better);
-            }
-        }
-        let length = s.norm();
-        let moved = match trial {
-            Some(point) if ratio > 1e-4 => self.accept(point, &step.multipliers)?,
-            _ => false,
-        };
-        if !moved {
-            self.radius = 0.25 * f64::min(self.radius, length);
-        } else if ratio < 0.25 {
-            self.radius = 0.5 * f64::min(self.radius, length);
-        } else if ratio > 0.75 && length > 0.8 * self.radius {
-            self.radius = f64::min(2.0 * self.radius, LARGEST_RADIUS);
-        }
-        Ok(())
-    }
-
-    /// The point after a step; `None` where the map stops or a value is not finite.
-    fn trial(&self, s: &DVector<f64>) -> Result<Option<Point>, ProblemError> {
-        match self.program.evaluate(&(&self.point.u + s)) {
-            Ok(point) => Ok(Some(point)),
-            Err(Failure::Wrong(error)) => Err(error),
-            Err(_) => Ok(None),
-        }
-    }
-
-    /// Reduction of the merit over what was promised; both are allowed the rounding of the maps.
-    fn ratio(&self, trial: Option<&Point>, promised: f64) -> f64 {
-        let error = f64::max(1e-13, 0.1 * self.program.problem.settings.accuracy.relative);
-        let rounding = error * (1.0 + self.point.f.abs() + self.penalty);
-        match trial {
-            Some(point) => (self.merit(&self.point) - self.merit(point) + rounding) / (promised + rounding),
-            None => f64::NEG_INFINITY,
-        }
-    }
-
-    /// Second-order correction: the same model with the constraints' values after the step.
-    fn corrected(&self, s: &DVector<f64>, trial: &Point, lower: &[f64], upper: &[f64]) -> Option<DVector<f64>> {
-        let mut problem = self.subproblem(lower, upper);
-        problem.h = &trial.h - &self.lin.h * s;
-        problem.c = self.shifted(&trial.c) - &self.lin.c * s;
-        solve(&problem).ok().map(|step| step.s)
-    }
-
-    /// Moves to a point; `false` when it has no derivatives.
-    fn accept(&mut self, point: Point, multipliers: &Multipliers) -> Result<bool, ProblemError> {
-        let lin = match self.program.linearise(&point) {
-            Ok(lin) => lin,
-            Err(Failure::Wrong(error)) => return Err(error),
-            Err(_) => return Ok(false),
-        };
-        let change = lagrangian_gradient(&lin, multipliers) - lagrangian_gradient(&self.lin, multipliers);
-        self.model.update(&(&point.u - &self.point.u), &change);
-        (self.point, self.lin) = (point, lin);
-        Ok(true)
     }
 }
 

@@ -1,11 +1,12 @@
 //! The convex subproblem: a quadratic model with elastic linearised constraints in a ball, solved by Clarabel.
 //!
 //! ```text
-//! minimise   g's + s'Bs/2 + mu (sum t+ + t- + sum w)
+//! minimise   g's + s'Bs/2 + nu sum (t+ + t-) + mu sum w
 //! subject to A s + h = t+ - t-,  C s + c + w >= 0,  lower <= s <= upper,  |s| <= radius,  t+, t-, w >= 0
 //! ```
 //!
-//! Elastic variables make it feasible whatever the constraints. It is posed in units of the radius, so that Clarabel
+//! Elastic variables make it feasible whatever the constraints. With an infinite nu there are no t: the equalities hold, or the
+//! program is infeasible. It is posed in units of the radius, so that Clarabel
 //! sees steps of order one however small the ball has become.
 
 use clarabel::algebra::CscMatrix;
@@ -28,7 +29,10 @@ pub(super) struct Subproblem<'a> {
     pub(super) lower: &'a [f64],
     pub(super) upper: &'a [f64],
     pub(super) radius: f64,
+    /// What a violated inequality costs: mu.
     pub(super) penalty: f64,
+    /// What a violated equality costs: nu; infinite where they have to hold.
+    pub(super) tie: f64,
 }
 
 /// Multipliers: gradient = A'y + C'lambda + low - high at a stationary point; all but y are not negative.
@@ -62,7 +66,7 @@ impl Multipliers {
         }
     }
 
-    /// Largest multiplier of a constraint with a penalty.
+    /// Largest multiplier of an equality or inequality.
     pub(super) fn largest(&self) -> f64 {
         self.equality.amax().max(self.inequality.amax())
     }
@@ -90,6 +94,9 @@ impl Subproblem<'_> {
             match self.attempt(attempt) {
                 Ok(step) => return Ok(step),
                 Err(word) => words.push(word),
+            }
+            if self.tie.is_infinite() && words.iter().any(|word| word.contains("Infeasible")) {
+                break;
             }
         }
         Err(Unsolved(words.join(", ")))
@@ -129,7 +136,13 @@ impl Subproblem<'_> {
     /// By what the model's objective is divided, so that its coefficients do not grow without limit.
     fn objective_scale(&self, tame_penalty: bool) -> f64 {
         let scale = self.gradient.amax().max(1.0);
-        if tame_penalty { scale.max(self.penalty) } else { scale }
+        let tie = if self.tie.is_finite() { self.tie } else { 0.0 };
+        if tame_penalty { scale.max(self.penalty).max(tie) } else { scale }
+    }
+
+    /// How many elastic variables the equalities have.
+    fn ties(&self) -> usize {
+        if self.tie.is_finite() { 2 * self.h.len() } else { 0 }
     }
 
     /// Clarabel's form: minimise x'Px/2 + q'x subject to b - A x in the cones; x = (s, t+, t-, w)/radius.
@@ -137,7 +150,7 @@ impl Subproblem<'_> {
     /// Values so large that no step in the ball changes the sign of their row are cut down, and bounds out of reach are
     /// left out: neither changes the solution, but a huge right-hand side would spoil it.
     fn assemble(&self, regularise: f64, scale: f64) -> Data {
-        let (n, d, k) = (self.gradient.len(), self.h.len(), self.c.len());
+        let (n, d, k, ties) = (self.gradient.len(), self.h.len(), self.c.len(), self.ties());
         let mut p = Triplets::default();
         for j in 0..n {
             for i in 0..=j {
@@ -145,19 +158,28 @@ impl Subproblem<'_> {
                 p.push(i, j, self.radius * self.hessian[(i, j)] / scale + extra);
             }
         }
-        let columns = n + 2 * d + k;
-        let q: Vec<f64> = (0..columns).map(|j| if j < n { self.gradient[j] } else { self.penalty } / scale).collect();
+        let columns = n + ties + k;
+        let cost = |j: usize| match j {
+            j if j < n => self.gradient[j],
+            j if j < n + ties => self.tie,
+            _ => self.penalty,
+        };
+        let q: Vec<f64> = (0..columns).map(|j| cost(j) / scale).collect();
         let mut a = Triplets::default();
         let mut b = Vec::new();
         for i in 0..d {
             (0..n).for_each(|j| a.push(i, j, self.equality[(i, j)]));
-            a.push(i, n + i, -1.0);
-            a.push(i, n + d + i, 1.0);
-            b.push(-self.cut(self.h[i], self.equality, i));
+            if ties > 0 {
+                a.push(i, n + i, -1.0);
+                a.push(i, n + d + i, 1.0);
+                b.push(-self.cut(self.h[i], self.equality, i));
+            } else {
+                b.push(-self.h[i] / self.radius);
+            }
         }
         for i in 0..k {
             (0..n).for_each(|j| a.push(d + i, j, -self.inequality[(i, j)]));
-            a.push(d + i, n + 2 * d + i, -1.0);
+            a.push(d + i, n + ties + i, -1.0);
             b.push(self.cut(self.c[i], self.inequality, i));
         }
         let mut single = |column: usize, sign: f64, bound: f64| {
@@ -198,7 +220,7 @@ impl Subproblem<'_> {
         let mut m = Multipliers::zeros(n, d, k);
         m.equality = DVector::from_fn(d, |i, _| -z[i] * scale);
         m.inequality = DVector::from_fn(k, |i, _| z[d + i].max(0.0) * scale);
-        let mut next = d + k + 2 * d + k;
+        let mut next = d + k + self.ties() + k;
         for j in self.reachable(self.lower) {
             m.low[j] = z[next].max(0.0) * scale;
             next += 1;

@@ -32,6 +32,7 @@ impl Owned {
             upper: &self.upper,
             radius: self.radius,
             penalty: self.penalty,
+            tie: self.penalty,
         }
     }
 }
