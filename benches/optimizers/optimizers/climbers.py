@@ -96,9 +96,8 @@ def crank(task: Task, mesh: int) -> Climber:
 
 
 def graded(intervals: int) -> np.ndarray:
-    """A mesh finer near both ends, where the crank passes its dead centres."""
-    even = np.linspace(0.0, 1.0, intervals + 1)
-    return 0.5 * even + 0.25 * (1.0 - np.cos(pi * even))
+    """A mesh finer towards both ends, where the motor catches the mass near the dead centres: the lower the gear, the faster."""
+    return 0.5 - 0.5 * np.cos(pi * np.linspace(0.0, 1.0, intervals + 1))
 
 
 def swung(psi: Symbol, x: Symbol, columns: Symbol) -> tuple[Symbol, Symbol, Symbol]:
@@ -209,7 +208,8 @@ def stroke(task: Task, mesh: int) -> Climber:
     def durations(start: Start) -> list[float]:
         return [start.duration or 0.15]
 
-    phase = Phase(residual, None, margins, np.linspace(0.0, 1.0, mesh + 1))
+    # The motor brings the mass to its speed in a small part of the stroke.
+    phase = Phase(residual, None, margins, np.linspace(0.0, 1.0, mesh + 1) ** 2)
     return Climber(2, [phase], lambda w: ca.vertcat(0.0, *Values(task, w).z), landed, objective, durations)
 
 
