@@ -53,7 +53,7 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="benches/optimizers/run", description=__doc__)
     parser.add_argument("--only", nargs="+", choices=CODES, default=list(CODES), help="some of the codes; of the others the last results")
     parser.add_argument("--problem", nargs="+", choices=CASES, default=list(CASES), help="some of the problems")
-    parser.add_argument("--starts", type=int, default=20, help="random starts besides the spec's own (default 20)")
+    parser.add_argument("--starts", type=int, default=10, help="random starts besides the spec's own (default 10)")
     parser.add_argument("--seed", type=int, default=1, help="of the random starts")
     parser.add_argument("--all", action="store_true", help="every configuration of a code in the table, not its best alone")
     parser.add_argument("--budget", type=float, default=3600.0, help="longest time of a code on a problem (s)")
@@ -81,7 +81,7 @@ def library(python: str) -> None:
     # In its own folder cargo finds the project's flags: code for the processor that it runs on.
     subprocess.run(command, cwd=HERE / "rust", env={**os.environ, "PYO3_PYTHON": python}, check=True)
     (WORK / "module").mkdir(exist_ok=True)
-    built = next(target.joinpath("release").glob("libgaitc_problem.[sd]*"))
+    built = next(file for end in ("so", "dylib") for file in target.joinpath("release").glob(f"libgaitc_problem.{end}"))
     shutil.copy(built, WORK / "module" / "gaitc_problem.so")
 
 

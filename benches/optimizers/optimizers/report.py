@@ -63,25 +63,30 @@ def best_known(task: Task, rows: Sequence[Row]) -> float:
 
 
 def code_lines(task: Task, code: str, rows: Sequence[Row], best: float, every: bool) -> list[str]:
-    """A line for each configuration of a code, or for that with the most right answers, of equals the quickest."""
-    groups: dict[str, list[Row]] = defaultdict(list)
+    """A line for each configuration of a solver, or for that with the most right answers, of equals the quickest."""
+    solvers: dict[str, dict[str, list[Row]]] = defaultdict(lambda: defaultdict(list))
     for row in rows:
-        groups[row["configuration"]].append(row)
-    ranked = []
-    for name, group in groups.items():
-        counts = Counter(verdict(task, row["success"], row["simulated"], best) for row in group)
-        times = [row["seconds"] for row in group]
-        median = statistics.median(times)
-        right = [row["simulated"].objective for row in group if verdict(task, row["success"], row["simulated"], best) == "right"]
-        objective = f"{statistics.median(right):.6f}" if right else ""
-        cells = [
-            NAMES[code], name, f"{counts['right']} of {len(group)}", counts["other"], counts["wrong"], counts["none"],
-            duration(median), duration(max(times)), duration(group[0]["build"]) if code == "ipopt" else "", objective,
-        ]
-        ranked.append(((-counts["right"], median), "| " + " | ".join(str(cell) for cell in cells) + " |"))
-    # Of SciPy's solvers each is a code of its own.
-    lines = [line for _, line in sorted(ranked)]
-    return lines if every else lines[:1]
+        # SciPy has several solvers, named first.
+        solver, _, way = row["configuration"].rpartition(", ") if code == "scipy" else ("", "", row["configuration"])
+        solvers[f"{NAMES[code]} {solver}".strip()][way].append(row)
+    lines = []
+    for solver, ways in solvers.items():
+        ranked = sorted(line(task, solver, way, group, best) for way, group in ways.items())
+        lines += [text for _, _, text in (ranked if every else ranked[:1])]
+    return lines
+
+
+def line(task: Task, solver: str, way: str, rows: Sequence[Row], best: float) -> tuple[int, float, str]:
+    """A line of the table, behind what it is ranked by."""
+    verdicts = [verdict(task, row["success"], row["simulated"], best) for row in rows]
+    counts, times = Counter(verdicts), [row["seconds"] for row in rows]
+    right = [row["simulated"].objective for row, said in zip(rows, verdicts) if said == "right"]
+    cells = [
+        solver, way, f"{counts['right']} of {len(rows)}", counts["other"], counts["wrong"], counts["none"],
+        duration(statistics.median(times)), duration(max(times)), duration(rows[0]["build"]) if "IPOPT" in solver else "",
+        f"{statistics.median(right):.6f}" if right else "",
+    ]
+    return -counts["right"], statistics.median(times), "| " + " | ".join(str(cell) for cell in cells) + " |"
 
 
 def duration(seconds: float) -> str:

@@ -9,6 +9,7 @@ import importlib
 import json
 import sys
 import time
+import warnings
 from collections.abc import Callable
 from importlib.metadata import version
 from typing import Any
@@ -22,6 +23,8 @@ REPEATS, ENOUGH = 3, 1.0
 
 def main(words: list[str]) -> None:
     code, key, count, seed = words
+    # What SciPy says of its quasi-Newton updates is no news here.
+    warnings.simplefilter("ignore")
     task = Task(CASES[key])
     module = importlib.import_module(f"optimizers.codes.{code}")
     say({"versions": {name: version(name) for name in module.VERSIONS}})

@@ -158,7 +158,7 @@ class Searched:
             ]
             found = minimize(
                 self.objective, x, jac=self.gradient, bounds=bounds, constraints=constraints, method="trust-constr",
-                options={"gtol": 1e-8, "xtol": 1e-12, "maxiter": 2000},
+                options={"gtol": 1e-12, "barrier_tol": 1e-12, "xtol": 1e-14, "maxiter": 1000},
             )
             # Its flag also says yes where only the radius became small.
             found.success = found.status == 1 or (found.status == 2 and found.constr_violation < 1e-8)
