@@ -27,7 +27,11 @@ def configurations(task: Task) -> list[Configuration]:
 
 
 class Stopped(Exception):
-    """The map has no next step at a trial point: SciPy has no way to be told, the search ends."""
+    """The map has no next step at the start, or its Jacobian no derivative."""
+
+
+BAD = 1e3
+"""An objective worse than any (m/s)."""
 
 
 class Searched:
@@ -50,9 +54,10 @@ class Searched:
         """Map, objective and margins at x, computed once for all functions that ask."""
         if self.at is None or not np.array_equal(x, self.at):
             found = self.task.posed.values(*self.split(x))
-            if found is None:
+            if found is None and not self.known:
                 raise Stopped
-            self.at, self.known = x.copy(), found
+            # SciPy cannot be told that a trial point has no next step; a bad objective makes it turn back.
+            self.at, self.known = x.copy(), found or self.known | {"objective": -self.task.sign * BAD}
         return self.known
 
     def curvature(self, x: Vector) -> Vector:
@@ -124,12 +129,11 @@ class Searched:
     def solve(self, start: Start) -> Claim:
         task = self.task
         x = np.concatenate([(start.p - task.lower) / (task.upper - task.lower), start.z])
-        self.at = None
-        self.last = x
+        self.at, self.known = None, {}
         try:
             found = self.search(x)
         except Stopped:
-            return Claim(False, "the map has no next step at a trial point", *self.claimed(x), 0)
+            return Claim(False, "the map has no next step", *self.claimed(x), 0)
         return Claim(bool(found.success), str(found.message), *self.claimed(found.x), int(found.nit))
 
     def claimed(self, x: Vector) -> tuple[Vector, Vector]:
