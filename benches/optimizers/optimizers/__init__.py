@@ -1,0 +1,1 @@
+"""gaitc's optimizer beside general solvers; see README.md."""
