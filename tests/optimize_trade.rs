@@ -149,3 +149,29 @@ fn what_cannot_be_traded_is_said() {
         }
     }
 }
+
+/// Ctrl-C leaves the points found so far, as one whole document.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_curve_is_what_was_found_until_then() {
+    use std::process::{Command, Stdio};
+    let long = Command::new(env!("CARGO_BIN_EXE_gaitc"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(SPRAWL)
+        .args(["--points", "5000", "--json"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    assert!(Command::new("kill").args(["-INT", &long.id().to_string()]).status().unwrap().success());
+    let output = long.wait_with_output().unwrap();
+    let curve: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((output.status.code(), curve["status"].as_str()), (Some(130), Some("interrupted")), "{curve:#}");
+    if let Some(points) = curve["points"].as_array() {
+        assert!(points.iter().all(|point| point["first"].is_number()));
+        assert_eq!(
+            points.len() + curve["gaps"].as_array().unwrap().len() + curve["dominated"].as_u64().unwrap() as usize,
+            5000
+        );
+    }
+}

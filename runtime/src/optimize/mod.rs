@@ -176,7 +176,8 @@ fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: 
     };
     let met = attempt::met(&verdict);
     // The long tests are for an answer, not for what an interruption leaves.
-    let mut solution = if interrupted { verdict.solution } else { verdict::tested(problem, verdict) };
+    let tested = problem.settings.long_tests && !interrupted;
+    let mut solution = if tested { verdict::tested(problem, verdict) } else { verdict.solution };
     if interrupted {
         if met && solution.status != Status::Interrupted {
             solution.message =

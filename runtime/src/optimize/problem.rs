@@ -104,6 +104,8 @@ pub struct Settings {
     pub threads: usize,
     /// First radius of the trust region, as a fraction of the ranges.
     pub trust_radius: f64,
+    /// Whether the answer has to pass the long tests, too: a thousand disturbed maps, and another integrator.
+    pub long_tests: bool,
     /// Ends the optimisation early, with the best gait so far.
     pub interrupt: Interrupt,
 }
@@ -119,6 +121,7 @@ impl Default for Settings {
             seed: 0,
             threads: 0,
             trust_radius: 0.25,
+            long_tests: true,
             interrupt: Interrupt::default(),
         }
     }

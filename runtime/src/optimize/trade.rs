@@ -57,8 +57,8 @@ pub struct TradePoint {
 pub struct Gap {
     /// The bound on the second quantity, SI units.
     pub bound: f64,
-    /// What the search from the better neighbour ended with.
-    pub solution: Solution,
+    /// What the search from the better neighbour ended with; `None` when somebody asked to stop before it.
+    pub solution: Option<Solution>,
 }
 
 /// The curve, from the best first quantity to the best second one.
@@ -70,6 +70,8 @@ pub struct Curve {
     pub gaps: Vec<Gap>,
     /// How many points were left out since others beat or repeat them.
     pub dominated: usize,
+    /// Somebody asked to stop: the points are those found until then.
+    pub interrupted: bool,
 }
 
 /// What came out.
@@ -104,16 +106,19 @@ pub fn trade(family: &Family<'_, '_>, points: usize) -> Result<TradeOutcome, Pro
         || trade.chain(bounds.iter().rev().copied(), &second.solution),
     );
     let best = down?.into_iter().zip(up?.into_iter().rev()).map(|(a, b)| trade.better(a, b));
-    let mut between: Vec<(f64, Solution)> = bounds.into_iter().zip(best).collect();
-    trade.repair(&mut between, &second)?;
-    let mut curve = Curve::default();
+    let mut between: Vec<(f64, Option<Solution>)> = bounds.into_iter().zip(best).collect();
+    let mut curve = Curve { interrupted: between.iter().any(|(_, s)| stopped(s.as_ref())), ..Curve::default() };
+    if !curve.interrupted {
+        trade.repair(&mut between, &second)?;
+    }
     let mut all = vec![first];
     for (bound, solution) in between {
-        if solution.status == Status::Optimal {
-            let slope = trade.slope(&solution, bound);
-            all.push(trade.point(solution, Some(slope)));
-        } else {
-            curve.gaps.push(Gap { bound, solution });
+        match solution {
+            Some(solution) if solution.status == Status::Optimal => {
+                let slope = trade.slope(&solution, bound);
+                all.push(trade.point(solution, Some(slope)));
+            }
+            solution => curve.gaps.push(Gap { bound, solution }),
         }
     }
     all.push(second);
@@ -153,37 +158,45 @@ impl Trade<'_, '_, '_> {
         Ok(Ok((self.point(first, Some(0.0)), self.point(second, None))))
     }
 
-    /// Optima for one bound after the other, each from the last gait that was found.
-    fn chain(&self, bounds: impl Iterator<Item = f64>, end: &Solution) -> Result<Vec<Solution>, ProblemError> {
+    /// Optima for one bound after the other, each from the last gait that was found; none after an interruption.
+    fn chain(&self, bounds: impl Iterator<Item = f64>, end: &Solution) -> Result<Vec<Option<Solution>>, ProblemError> {
         let mut at = origin(end);
-        let mut found = Vec::new();
+        let mut found: Vec<Option<Solution>> = Vec::new();
         for bound in bounds {
+            if found.last().is_some_and(|last| stopped(last.as_ref())) {
+                found.push(None);
+                continue;
+            }
             let solution = self.solve(Aim::Bounded(bound), at.as_ref())?;
             at = origin(&solution).or(at);
-            found.push(solution);
+            found.push(Some(solution));
         }
         Ok(found)
     }
 
     /// A stricter bound cannot give more: where it does, the looser one is solved again from there.
-    fn repair(&self, between: &mut [(f64, Solution)], end: &TradePoint) -> Result<(), ProblemError> {
+    fn repair(&self, between: &mut [(f64, Option<Solution>)], end: &TradePoint) -> Result<(), ProblemError> {
         let mut stricter = (end.first, origin(&end.solution));
         for (bound, solution) in between.iter_mut().rev() {
-            let lost = solution.status != Status::Optimal || ahead(self.first, stricter.0, solution.objective) > 0.0;
-            if lost && stricter.1.is_some() {
+            let known = solution.as_ref().filter(|s| s.status == Status::Optimal);
+            if known.is_none_or(|known| ahead(self.first, stricter.0, known.objective) > 0.0) {
                 let again = self.solve(Aim::Bounded(*bound), stricter.1.as_ref())?;
-                let old = solution.clone();
-                *solution = self.better(old, again);
+                *solution = self.better(solution.take(), Some(again));
             }
-            if let Some(origin) = origin(solution) {
+            if let Some(solution) = solution
+                && let Some(origin) = origin(solution)
+            {
                 stricter = (solution.objective, Some(origin));
             }
         }
         Ok(())
     }
 
-    fn better(&self, a: Solution, b: Solution) -> Solution {
-        best(self.first, a, b)
+    fn better(&self, a: Option<Solution>, b: Option<Solution>) -> Option<Solution> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(best(self.first, a, b)),
+            (a, b) => a.or(b),
+        }
     }
 
     fn point(&self, solution: Solution, slope: Option<f64>) -> TradePoint {
@@ -233,6 +246,11 @@ fn best(sense: Sense, a: Solution, b: Solution) -> Solution {
     let optimal = |s: &Solution| s.status == Status::Optimal;
     let second = optimal(&b) && (!optimal(&a) || ahead(sense, b.objective, a.objective) > 0.0);
     if second { b } else { a }
+}
+
+/// Whether somebody asked to stop before this, or while it was computed.
+fn stopped(solution: Option<&Solution>) -> bool {
+    solution.is_none_or(|solution| solution.status == Status::Interrupted)
 }
 
 fn origin(solution: &Solution) -> Option<Origin> {

@@ -10,7 +10,7 @@ use crate::files;
 use crate::load::Loaded;
 use crate::problem::{Start, assemble};
 use gaitc_compiler::ir::{self, Binary};
-use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, TradeOutcome, trade};
+use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Status, TradeOutcome, trade};
 use quantity::Quantity;
 use report::Report;
 use std::path::Path;
@@ -32,7 +32,7 @@ struct Trade<'l> {
 pub(super) fn run(
     loaded: &Loaded,
     (mut spec, problem): (ir::Model, ir::Problem),
-    start: Start,
+    mut start: Start,
     (args, json): (&OptimizeArgs, bool),
     warnings: &[String],
 ) -> Result<Outcome, InputError> {
@@ -44,6 +44,8 @@ pub(super) fn run(
     for quantity in [&first, &second] {
         request::depends_on_what_varies(&spec, &problem, quantity.node, &quantity.text)?;
     }
+    // Each point is confirmed by a fresh simulation; the long tests are for single answers.
+    start.settings.long_tests = false;
     let asked = Trade { loaded, spec, problem, first, second, start };
     let outcome = trade(&|aim, origin| asked.problem(aim, origin), args.points)?;
     let report = Report { trade: &asked, outcome: &outcome, warnings };
@@ -62,7 +64,11 @@ pub(super) fn run(
         }
     }
     Ok(match outcome {
+        TradeOutcome::Curve(curve) if curve.interrupted => Outcome::Interrupted,
         TradeOutcome::Curve(curve) if curve.gaps.is_empty() => Outcome::Done,
+        TradeOutcome::NoFirst(end) | TradeOutcome::NoSecond(end) if end.status == Status::Interrupted => {
+            Outcome::Interrupted
+        }
         _ => Outcome::Without,
     })
 }

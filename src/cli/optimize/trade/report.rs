@@ -39,7 +39,7 @@ impl Report<'_, '_> {
         all.insert("notes".into(), json!(self.warnings));
         match self.outcome {
             TradeOutcome::Curve(curve) => {
-                all.insert("status".into(), json!(if curve.gaps.is_empty() { "complete" } else { "gaps" }));
+                all.insert("status".into(), json!(curve_status(curve)));
                 all.insert("message".into(), json!(self.message(curve)));
                 all.insert("points".into(), curve.points.iter().map(|p| self.point(p)).collect());
                 all.insert("gaps".into(), curve.gaps.iter().map(gap).collect());
@@ -79,7 +79,11 @@ impl Report<'_, '_> {
             [_] => format!("one gait is best in both `{}` and `{}`: there is nothing to trade", a.text, b.text),
             points => format!("{} optima, each confirmed by simulation", points.len()),
         };
-        if curve.gaps.is_empty() { text } else { format!("{text}; {} bounds without an optimum", curve.gaps.len()) }
+        match curve.gaps.len() {
+            0 => text,
+            gaps if curve.interrupted => format!("interrupted: {text}; {gaps} bounds not done"),
+            gaps => format!("{text}; {gaps} bounds without an optimum"),
+        }
     }
 
     /// Why there is no curve.
@@ -124,7 +128,9 @@ impl Report<'_, '_> {
         });
         text += &format!("\n{}", output::table(&header, rows));
         for Gap { bound, solution } in &curve.gaps {
-            text += &format!("no optimum at {} = {}: {}\n", b.text, b.show(*bound), solution.message);
+            if let Some(solution) = solution {
+                text += &format!("no optimum at {} = {}: {}\n", b.text, b.show(*bound), solution.message);
+            }
         }
         text + &format!("slope: of {} per unit of {}\n", a.label(), b.label())
     }
@@ -190,5 +196,18 @@ impl Report<'_, '_> {
 }
 
 fn gap(gap: &Gap) -> Value {
-    json!({ "bound": gap.bound, "status": status(gap.solution.status), "message": gap.solution.message })
+    let end = gap.solution.as_ref();
+    json!({
+        "bound": gap.bound,
+        "status": end.map(|solution| status(solution.status)),
+        "message": end.map(|solution| &solution.message),
+    })
+}
+
+fn curve_status(curve: &Curve) -> &'static str {
+    match (curve.interrupted, curve.gaps.is_empty()) {
+        (true, _) => "interrupted",
+        (false, true) => "complete",
+        (false, false) => "gaps",
+    }
 }
