@@ -4,7 +4,9 @@
 mod optimize_support;
 
 use approx::assert_relative_eq;
-use gaitc_runtime::optimize::{Constraint, ConstraintKind, Expression, Interrupt, Objective, Problem, Sense, Solution, Status, Value, solve};
+use gaitc_runtime::optimize::{
+    Constraint, ConstraintKind, Expression, Interrupt, Objective, Problem, Sense, Solution, Status, Value, solve,
+};
 use optimize_support::{Closed, Dual, Formed, about, expression, margin, problem, solved, spectral};
 
 fn c(v: f64) -> Dual {
