@@ -124,6 +124,7 @@ fn fastest_stable(model: &Loaded) -> (Model, Problem) {
         objective_dimension,
         vary: [("G", "15..120"), ("psi", "1..45 deg"), ("k", "0..200 N/m")].into_iter().map(vary).collect(),
         constraints: vec![constraint],
+        period: 1,
     };
     (spec, problem)
 }
