@@ -105,7 +105,7 @@ pub const CASES: &[Case] = &[
     ),
     named("rimless_wheel", "fastest", &[1.7345792525]),
     named("rotational", "fastest", &[0.6678015832]),
-    named("slip_runner", "smoothest", &[]),
+    named("slip_runner", "smoothest", &[0.0542528399, 0.0550866627]),
     named("self_exciting", "fastest", &[0.9231164541]),
     named("self_exciting", "fastest_unbounded", &[1.3651996864]),
     flags(
@@ -141,6 +141,6 @@ pub const CASES: &[Case] = &[
         },
         &[1.1586065187],
     ),
-    named("self_exciting_rack", "fastest", &[]),
+    named("self_exciting_rack", "fastest", &[3.5159268576]),
     named("self_exciting_rotor", "fastest", &[]),
 ];
