@@ -6,7 +6,6 @@ use gaitc_compiler::front::flags::{parse_constraint, parse_objective, parse_rang
 use gaitc_compiler::ir::eval::{Environment, value};
 use gaitc_compiler::ir::{Model, Problem, Sense, Vary};
 use gaitc_runtime::orbit::{GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::Accuracy;
 
 /// Violation, relative to the size of a bound, that counts as none: rounding.
 const NOTHING: f64 = 1e-10;

@@ -64,18 +64,7 @@ pub const CASES: &[Case] = &[
         },
         &[],
     ),
-    named("fg_template", "fastest", &[]),
-    flags(
-        "fg_template",
-        Flags {
-            name: "most stable",
-            maximize: false,
-            objective: "spectral_radius",
-            vary: &[("beta", "2..40 deg"), ("f", "5..12 Hz")],
-            subject_to: &["climb_speed >= 0.1 m/s"],
-        },
-        &[],
-    ),
+    named("fg_template", "fastest", &[0.5013072109, 0.2836563917]),
     named("power_stroke", "fastest", &[0.8856187983]),
     named("power_stroke_crank", "fastest", &[1.2390573710]),
     named("power_stroke_muscle", "fastest", &[0.9049191845]),
@@ -105,7 +94,7 @@ pub const CASES: &[Case] = &[
     ),
     named("rimless_wheel", "fastest", &[1.7345792525]),
     named("rotational", "fastest", &[0.6678015832]),
-    named("slip_runner", "smoothest", &[]),
+    named("slip_runner", "smoothest", &[0.0542528399, 0.0550866627]),
     named("self_exciting", "fastest", &[0.9231164541]),
     named("self_exciting", "fastest_unbounded", &[1.3651996864]),
     flags(
@@ -141,6 +130,6 @@ pub const CASES: &[Case] = &[
         },
         &[1.1586065187],
     ),
-    named("self_exciting_rack", "fastest", &[]),
+    named("self_exciting_rack", "fastest", &[3.5159268576]),
     named("self_exciting_rotor", "fastest", &[]),
 ];
