@@ -82,7 +82,10 @@ def library(python: str) -> None:
     subprocess.run(command, cwd=HERE / "rust", env={**os.environ, "PYO3_PYTHON": python}, check=True)
     (WORK / "module").mkdir(exist_ok=True)
     built = next(file for end in ("so", "dylib") for file in target.joinpath("release").glob(f"libgaitc_problem.{end}"))
-    shutil.copy(built, WORK / "module" / "gaitc_problem.so")
+    # Put in place whole: another run may have the old one loaded.
+    new = WORK / "module" / "gaitc_problem.so.new"
+    shutil.copy(built, new)
+    new.replace(WORK / "module" / "gaitc_problem.so")
 
 
 def measure(command: list[str], out: Path, surroundings: dict[str, str], budget: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from optimizers.cases import Claim, Configuration, Start, Task, Vector
-from optimizers.climbers import CLIMBERS, Climber
+from optimizers.climbers import CLIMBERS
 from optimizers.collocation import Flow, Points, Symbol
 
 VERSIONS = ("casadi",)

@@ -7,7 +7,6 @@ can, else by central differences.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np

@@ -96,11 +96,7 @@ pub(crate) fn jacobian_derivative(
 /// Step of a central difference as a part of the range or size: its error and the Jacobian's own meet near here.
 const STEP: f64 = 1e-5;
 
-fn second_order(
-    problem: &Problem<'_>,
-    parameters: &[f64],
-    z: &[f64],
-) -> Result<Option<Vec<Vec<Row>>>, RequestError> {
+fn second_order(problem: &Problem<'_>, parameters: &[f64], z: &[f64]) -> Result<Option<Vec<Vec<Row>>>, RequestError> {
     let varied = varied(problem);
     let (_, plan) = problem.map.plan(&request(problem, parameters, z, Sensitivity::Coordinates, false))?;
     let Some(plan) = plan else { return Ok(None) };

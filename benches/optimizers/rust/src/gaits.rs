@@ -28,11 +28,7 @@ pub(crate) fn gait(problem: &Problem<'_>, parameters: &[f64]) -> Result<Option<(
     Ok(None)
 }
 
-fn near(
-    problem: &Problem<'_>,
-    parameters: &[f64],
-    guess: &[f64],
-) -> Result<Option<(Vec<f64>, f64)>, RequestError> {
+fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Option<(Vec<f64>, f64)>, RequestError> {
     let accuracy = problem.settings.accuracy;
     let tolerance = f64::max(1e-10, 10.0 * accuracy.relative);
     let request = GaitRequest { accuracy, tolerance, ..GaitRequest::new(parameters, &problem.memory) };
