@@ -33,9 +33,8 @@ pub(crate) fn side_by_side<M, S, const N: usize, const P: usize, const Q: usize,
     }
     let mut course = Course::<M, S, N, P, Q, C>::new(plan, section, &p);
     let end = course.map(z.get(..d).unwrap_or(&[]), &dz);
-    // The difference of a number and itself is not 0 where it is infinite or NaN.
     let numbers = end.x.iter().chain(end.dx.iter().flatten());
-    let held = numbers.fold(course.valid, |held, v| S::and(held, S::constant(0.0).less_equal(*v - *v)));
+    let held = numbers.fold(course.valid, |held, v| S::and(held, v.abs().less(S::constant(f64::INFINITY))));
     for lane in 0..S::LANES {
         let point = first + lane;
         let Some(slot) = images.held.get_mut(point) else {
