@@ -18,7 +18,7 @@ pub(super) fn tick(value: f64, range: &std::ops::Range<f64>) -> String {
     // Ten ticks or so: the distance between them has its first digit at this decimal place.
     let decimals = (1.0 - (spread / 5.0).log10().floor()).clamp(0.0, 12.0) as usize;
     let size = range.start.abs().max(range.end.abs());
-    if size >= 1e6 || size < 1e-4 {
+    if !(1e-4..1e6).contains(&size) {
         return format!("{value:.2e}");
     }
     let text = format!("{value:.decimals$}");
