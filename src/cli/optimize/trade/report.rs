@@ -186,7 +186,7 @@ impl Report<'_, '_> {
         };
         let ends = [curve.points.first(), curve.points.last().filter(|_| curve.points.len() > 1)];
         Line {
-            title: format!("{}: best {} for every {}", self.trade.spec.title, a.text, b.text),
+            title: format!("{}: best {} for every {}", self.trade.spec.name, a.text, b.text),
             x: b.label(),
             y: a.label(),
             points: curve.points.iter().map(at).collect(),
