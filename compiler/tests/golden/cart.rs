@@ -187,7 +187,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -195,14 +195,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Cart {
         let _ = (mode, env);
         [nan(); CLOCK_TERMS]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],

@@ -205,7 +205,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -216,14 +216,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for EveryOperation {
             _ => [nan(); CLOCK_TERMS],
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],
@@ -3144,7 +3144,7 @@ const CLOCK_TERMS: usize = 9;
 /// The terms of mode `first`'s flow that do not depend on the state.
 ///
 /// 2 additions, 5 multiplications, 2 function calls, 4 selections.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn clock_first<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -3173,7 +3173,7 @@ fn clock_first<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 40 additions, 21 multiplications, 27 fused multiply-adds, 13 divisions, 29 function calls, 9 selections. A column: 3 multiplications, 3 fused multiply-adds.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn staged_flow_first<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],
@@ -3339,7 +3339,7 @@ fn staged_flow_first<S: scalar::Scalar, const C: usize>(
 /// The terms of mode `second`'s flow that do not depend on the state.
 ///
 /// No operations.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn clock_second<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -3362,7 +3362,7 @@ fn clock_second<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 1 addition, 1 multiplication. A column: 1 addition, 1 multiplication, 1 fused multiply-add.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn staged_flow_second<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],

@@ -203,7 +203,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Hopper {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -214,14 +214,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for Hopper {
             _ => [nan(); CLOCK_TERMS],
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],
@@ -1544,7 +1544,7 @@ const CLOCK_TERMS: usize = 1;
 /// The terms of mode `flight`'s flow that do not depend on the state.
 ///
 /// 1 addition.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn clock_flight<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -1559,7 +1559,7 @@ fn clock_flight<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: No operations. A column: No operations.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn staged_flow_flight<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],
@@ -1581,7 +1581,7 @@ fn staged_flow_flight<S: scalar::Scalar, const C: usize>(
 /// The terms of mode `stance`'s flow that do not depend on the state.
 ///
 /// 1 addition, 1 multiplication.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn clock_stance<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -1597,7 +1597,7 @@ fn clock_stance<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 1 multiplication. A column: 1 multiplication.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn staged_flow_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],

@@ -198,7 +198,7 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for PrescribedLength {
         }
     }
     type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock<S: scalar::Scalar>(
         mode: usize,
         env: &model::Env<'_, S, PARAMETERS>,
@@ -208,14 +208,14 @@ impl model::Model<STATES, PARAMETERS, INTEGRALS> for PrescribedLength {
             _ => [nan(); CLOCK_TERMS],
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clock_lane<S: scalar::Real>(
         clock: &[S; CLOCK_TERMS],
         lane: usize,
     ) -> [f64; CLOCK_TERMS] {
         clock.map(|term| term.lane(lane))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn variational_at<S: scalar::Scalar, const C: usize>(
         mode: usize,
         x: &[S; STATES],
@@ -2130,7 +2130,7 @@ const CLOCK_TERMS: usize = 4;
 /// The terms of mode `stance`'s flow that do not depend on the state.
 ///
 /// 4 additions, 5 multiplications, 1 fused multiply-add, 2 divisions, 1 function call, 3 selections.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn clock_stance<S: scalar::Scalar>(
     env: &model::Env<'_, S, PARAMETERS>,
 ) -> [S; CLOCK_TERMS] {
@@ -2161,7 +2161,7 @@ fn clock_stance<S: scalar::Scalar>(
 /// that do not depend on the state.
 ///
 /// Once: 3 multiplications, 1 fused multiply-add, 1 function call. A column: 2 multiplications, 1 fused multiply-add.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn staged_flow_stance<S: scalar::Scalar, const C: usize>(
     x: &[S; STATES],
     columns: &[[S; STATES]; C],

@@ -51,20 +51,21 @@ pub(super) fn dispatch(context: &Context<'_>) -> TokenStream {
             quote!(match mode { #(#staged)* _ => (nan_state(), [nan_state(); C]) }),
         )
     };
+    let always = text::always();
     quote! {
         type Clock<S: scalar::Scalar> = [S; CLOCK_TERMS];
 
-        #[inline(always)]
+        #always
         fn clock<S: scalar::Scalar>(mode: usize, env: &model::Env<'_, S, PARAMETERS>) -> [S; CLOCK_TERMS] {
             #clock
         }
 
-        #[inline(always)]
+        #always
         fn clock_lane<S: scalar::Real>(clock: &[S; CLOCK_TERMS], lane: usize) -> [f64; CLOCK_TERMS] {
             clock.map(|term| term.lane(lane))
         }
 
-        #[inline(always)]
+        #always
         fn variational_at<S: scalar::Scalar, const C: usize>(
             mode: usize,
             x: &[S; STATES],

@@ -36,7 +36,12 @@ const INLINED: usize = 400;
 /// The attribute of a function that a step calls at each of its stages. What is passed through memory there is waited for, so
 /// the compiler is told to inline it.
 pub(super) fn inlined(program: &Program) -> TokenStream {
-    if program.operations.len() <= INLINED { quote!(#[inline(always)]) } else { quote!(#[inline]) }
+    if program.operations.len() <= INLINED { always() } else { quote!(#[inline]) }
+}
+
+/// The attribute of what has to be inlined to be fast; without optimisation that would only take the compiler's time.
+pub(super) fn always() -> TokenStream {
+    quote!(#[cfg_attr(not(debug_assertions), inline(always))])
 }
 
 /// Operation counts for people.
