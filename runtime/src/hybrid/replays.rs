@@ -67,10 +67,13 @@ pub(super) fn replay<M: Model<N, P, Q>, const N: usize, const P: usize, const Q:
     if const { !M::INFO.explicit } {
         return Ok(());
     }
+    // As many columns as coordinates: each that is idle would cost as much as one that is not.
     if const { M::INFO.coordinates.len() <= 1 } {
         points_of::<M, N, P, Q, 1>(plan, section, points, count, images);
-    } else if const { M::INFO.coordinates.len() <= super::NARROW } {
+    } else if const { M::INFO.coordinates.len() == 2 } {
         points_of::<M, N, P, Q, 2>(plan, section, points, count, images);
+    } else if const { M::INFO.coordinates.len() == 3 } {
+        points_of::<M, N, P, Q, 3>(plan, section, points, count, images);
     } else {
         points_of::<M, N, P, Q, 4>(plan, section, points, count, images);
     }
