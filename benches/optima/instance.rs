@@ -155,5 +155,6 @@ fn from_flags(spec: &mut Model, flags: &Flags) -> Problem {
         objective_dimension,
         vary: flags.vary.iter().map(vary).collect(),
         constraints,
+        period: 1,
     }
 }
