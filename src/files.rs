@@ -1,7 +1,7 @@
 //! Files of results: whole or not there, whatever happens while they are written.
 
 use std::fs::{self, File};
-use std::io::{Result, Write};
+use std::io::{Error, ErrorKind, Result, Write};
 use std::path::Path;
 
 /// Writes a file: first beside its place, then under its name, so that what stood there stays until the new contents are
@@ -18,6 +18,10 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     let name = place.file_name().unwrap_or_default().to_string_lossy();
     let temporary = place.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
     let written = File::create_new(&temporary).and_then(|mut file| {
+        if let Ok(known) = fs::metadata(&place) {
+            // Who may read what stood there may read what replaces it, and nobody else.
+            file.set_permissions(known.permissions())?;
+        }
         file.write_all(contents)?;
         // Renamed before its contents are on the disk, a file could be empty after a power cut.
         file.sync_all()?;
@@ -28,4 +32,22 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+/// Whether a file could be written there, found out without touching it: before the work whose result it is to hold.
+///
+/// # Errors
+/// Those of the file system.
+pub fn try_place(path: &Path) -> Result<()> {
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    match fs::metadata(&place) {
+        Ok(known) if known.is_dir() => Err(Error::new(ErrorKind::IsADirectory, "this is a folder")),
+        Ok(known) if !known.is_file() => Ok(()),
+        _ => {
+            let name = place.file_name().unwrap_or_default().to_string_lossy();
+            let temporary = place.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+            File::create_new(&temporary)?;
+            fs::remove_file(&temporary)
+        }
+    }
 }

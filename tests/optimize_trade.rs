@@ -61,7 +61,7 @@ fn slopes_are_those_of_the_curve() {
         let chord = (number(a, "/first") - number(c, "/first")) / (number(a, "/second") - number(c, "/second"));
         assert_relative_eq!(number(&three[1], "/slope"), chord, max_relative = 2e-4);
     }
-    assert_eq!(points.first().unwrap()["slope"], 0.0);
+    assert_eq!(points.first().unwrap()["slope"], Value::Null);
     assert_eq!(points.last().unwrap()["slope"], Value::Null);
 }
 
@@ -112,10 +112,30 @@ fn files_hold_the_curve_with_units_and_appear_whole() {
         assert!(picture.contains(label), "{label}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing is left beside the files");
-    // Nowhere to write to: said, with the curve on the screen all the same.
+    // Nowhere to write to: said before the work begins, as one document.
     let lost = folder.path().join("no/such/folder.csv");
-    let (code, out, errors) = text(&[&SPRAWL[..], &["--points", "2", "--csv", lost.to_str().unwrap()]].concat());
-    assert!(code == 1 && out.contains("psi") && errors.contains("--csv"), "{out}\n{errors}");
+    let lost = lost.to_str().unwrap();
+    let (code, error) = json(&[&SPRAWL[..], &["--points", "2", "--csv", lost]].concat());
+    assert!(code == 1 && error["message"].as_str().unwrap().contains("--csv"), "{error:#}");
+    // A disk that turns out to be full: said, with the curve all the same.
+    #[cfg(target_os = "linux")]
+    {
+        let (code, curve) = json(&[&SPRAWL[..], &["--points", "2", "--csv", "/dev/full"]].concat());
+        assert_eq!((code, points(&curve).len()), (1, 2), "{curve:#}");
+    }
+}
+
+/// Who could read the old file can read the new one.
+#[cfg(unix)]
+#[test]
+fn a_file_keeps_its_permissions() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("curve.csv");
+    fs::write(&csv, "old").unwrap();
+    fs::set_permissions(&csv, fs::Permissions::from_mode(0o600)).unwrap();
+    let (code, ..) = text(&[&SPRAWL[..], &["--points", "2", "--csv", csv.to_str().unwrap()]].concat());
+    assert_eq!((code, fs::metadata(&csv).unwrap().permissions().mode() & 0o777), (0, 0o600));
 }
 
 #[test]
@@ -130,11 +150,18 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn what_cannot_be_traded_is_said() {
-    let cases: [(&[&str], &[&str]); 8] = [
+    let cases: [(&[&str], &[&str]); 12] = [
         (&["--trade", "climb_speed"], &["not two quantities", "climb_speed:spectral_radius"]),
         (&["--trade", "climb_speed:climb_speed"], &["the same"]),
         (&["--trade", "climb_speed:"], &["missing"]),
         (&["--trade", "climb_sped:spectral_radius"], &["climb_sped", "climb_speed"]),
+        (&["--trade", "climb_sped:mean_power"], &["climb_sped", "did you mean `climb_speed`"]),
+        (&["--trade", "climb_speed:mean_power", "--csv", "a", "--plot", "a"], &["the same file"]),
+        (&["--trade", "climb_speed:mean_power", "--plot", "a.png"], &["pictures are SVG", "`.svg`"]),
+        (
+            &["--trade", "climb_speed:mean_power", "--maximize", "peak_force", "--vary", "psi=5..30 deg"],
+            &["`peak_force`", "neither of the two"],
+        ),
         (&["--trade", "climb_speed:max spectral_radius"], &["can only be minimised"]),
         (&["--trade", "peak_force:lateral_speed"], &["more or less", "`max` or `min`"]),
         (&["--trade", "climb_speed:spectral_radius", "--points", "1"], &["--points 1", "from 2"]),

@@ -56,7 +56,7 @@ pub const CASES: &[Case] = &[
     flags(
         "compass_walker",
         Flags {
-            name: "most stable",
+            name: "from flags: most stable",
             maximize: false,
             objective: "spectral_radius",
             vary: &[("gamma", "1..4 deg"), ("m", "2..8 kg")],
@@ -64,16 +64,16 @@ pub const CASES: &[Case] = &[
         },
         &[],
     ),
-    named("fg_template", "fastest", &[0.5013072109, 0.2836563917]),
-    named("power_stroke", "fastest", &[0.8856187983]),
+    named("fg_template", "fastest_stable", &[0.5013072109, 0.2836563917]),
+    named("power_stroke", "fastest_stable", &[0.8856187983]),
     named("power_stroke_crank", "fastest", &[1.2390573710]),
-    named("power_stroke_muscle", "fastest", &[0.9049191845]),
+    named("power_stroke_muscle", "fastest_stable", &[0.9049191845]),
     named("prescribed_length", "fastest_stable", &[0.6981704256]),
     named("prescribed_length", "fastest", &[1.0358846466]),
     flags(
         "prescribed_length",
         Flags {
-            name: "most stable",
+            name: "from flags: most stable",
             maximize: false,
             objective: "spectral_radius",
             vary: &[("psi", "1..45 deg"), ("omega", "2*pi*2..2*pi*4 rad/s")],
@@ -84,7 +84,7 @@ pub const CASES: &[Case] = &[
     flags(
         "prescribed_length",
         Flags {
-            name: "cheapest",
+            name: "from flags: cheapest",
             maximize: false,
             objective: "cost_of_transport",
             vary: &[("psi", "5..45 deg"), ("omega", "2*pi*2..2*pi*4 rad/s"), ("l_s", "5..30 cm")],
@@ -95,12 +95,12 @@ pub const CASES: &[Case] = &[
     named("rimless_wheel", "fastest", &[1.7345792525]),
     named("rotational", "fastest", &[0.6678015832]),
     named("slip_runner", "smoothest", &[0.0542528399, 0.0550866627]),
-    named("self_exciting", "fastest", &[0.9231164541]),
+    named("self_exciting", "fastest_stable", &[0.9231164541]),
     named("self_exciting", "fastest_unbounded", &[1.3651996864]),
     flags(
         "self_exciting",
         Flags {
-            name: "fastest, stability bounded",
+            name: "from flags: fastest, stability bounded",
             maximize: true,
             objective: "climb_speed",
             vary: GEAR_SPRAWL_SPRING,
@@ -111,7 +111,7 @@ pub const CASES: &[Case] = &[
     flags(
         "self_exciting",
         Flags {
-            name: "most stable",
+            name: "from flags: most stable",
             maximize: false,
             objective: "spectral_radius",
             vary: &[("psi", "1..45 deg")],
@@ -122,7 +122,7 @@ pub const CASES: &[Case] = &[
     flags(
         "self_exciting",
         Flags {
-            name: "cheapest",
+            name: "from flags: cheapest",
             maximize: false,
             objective: "cost_of_transport",
             vary: &[("G", "30..120"), ("psi", "1..45 deg")],
@@ -130,6 +130,6 @@ pub const CASES: &[Case] = &[
         },
         &[1.1586065187],
     ),
-    named("self_exciting_rack", "fastest", &[3.5159268576]),
-    named("self_exciting_rotor", "fastest", &[]),
+    named("self_exciting_rack", "fastest_stable", &[3.5159268576]),
+    named("self_exciting_rotor", "fastest_stable", &[]),
 ];

@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use gaitc_compiler::front::LONGEST_PERIOD;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
 use gaitc_compiler::front::format_quantity;
-use gaitc_compiler::ir::Parameter;
+use gaitc_compiler::ir::{Parameter, Problem, Vary};
 use gaitc_runtime::return_map::{Accuracy, Method};
 
 /// What `--method` takes.
@@ -47,6 +47,24 @@ pub(super) fn outside_range(loaded: &Loaded, values: &[f64]) -> Vec<String> {
         Some(format!("`{}` = {value} is outside the range that the spec gives for it, {lower} to {upper}", p.name))
     };
     loaded.spec.parameters.iter().zip(values).filter_map(outside).collect()
+}
+
+/// One sentence for each range to vary a parameter over that leaves the range that the spec gives for it: most often a
+/// forgotten unit.
+pub(super) fn varies_outside(loaded: &Loaded, problem: &Problem) -> Vec<String> {
+    let outside = |vary: &Vary| {
+        let p = loaded.spec.parameters.get(vary.parameter)?;
+        let (lower, upper) = p.range.filter(|(lower, upper)| {
+            let slack = 1e-9 * (upper - lower);
+            vary.lower < lower - slack || vary.upper > upper + slack
+        })?;
+        let [from, to, lower, upper] = [vary.lower, vary.upper, lower, upper].map(|v| format_quantity(v, &p.unit));
+        Some(format!(
+            "`{}` varies from {from} to {to}, beyond the range that the spec gives for it, {lower} to {upper}",
+            p.name
+        ))
+    };
+    problem.vary.iter().filter_map(outside).collect()
 }
 
 /// The section's start with every `--guess` applied.

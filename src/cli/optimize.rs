@@ -31,6 +31,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     let (spec, problem) = request::problem(&loaded, args)?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
     let mut warnings = inputs::outside_range(&loaded, &parameters);
+    warnings.extend(inputs::varies_outside(&loaded, &problem));
     warnings.extend(fixed::constraints(&spec, &problem, &parameters)?);
     let settings = Settings {
         accuracy: inputs::accuracy(&args.search)?,

@@ -20,6 +20,12 @@ pub(super) fn print(text: &str) {
     }
 }
 
+/// Says that a part of the result could not be written: the command fails then, but what it printed stands.
+pub(super) fn lose(message: &str) {
+    LOST.store(true, Ordering::Relaxed);
+    error(message);
+}
+
 /// Whether a result was lost: the command has failed then, whatever it found.
 pub(super) fn lost() -> bool {
     LOST.load(Ordering::Relaxed)

@@ -146,7 +146,7 @@ pub(super) fn undefined(what: &str) -> String {
 /// The message of an interrupted search; `detail` names violated constraints.
 fn interrupted(detail: &str) -> String {
     if detail.is_empty() {
-        "interrupted: this is the best gait so far, not an optimum".to_owned()
+        "this is the best gait so far, not an optimum".to_owned()
     } else {
         format!("interrupted before any gait met all constraints; the one that came closest: {detail}")
     }

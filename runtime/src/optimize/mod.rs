@@ -161,7 +161,10 @@ fn run(
 /// The best of all attempts, with what the others say.
 fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: Option<Conflict>) -> Solution {
     let interrupted = attempts.iter().any(|(_, attempt)| attempt.verdict.solution.status == Status::Interrupted)
-        || (attempts.len() < problem.settings.starts);
+        || (attempts.len() < problem.settings.starts)
+        // A search, a restoration or a confirmation that was cut short says nothing of its own.
+        || (problem.settings.interrupt.requested()
+            && attempts.iter().all(|(_, attempt)| attempt.verdict.solution.status != Status::Optimal));
     let run = attempts.len();
     attempts.sort_by(|(i, a), (k, b)| {
         let order = if interrupted { attempt::order_so_far } else { attempt::order };
@@ -179,9 +182,10 @@ fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: 
     let tested = problem.settings.long_tests && !interrupted;
     let mut solution = if tested { verdict::tested(problem, verdict) } else { verdict.solution };
     if interrupted {
-        if met && solution.status != Status::Interrupted {
+        if solution.status != Status::Interrupted {
+            let detail = if met { "" } else { "it is the one shown here" };
             solution.message =
-                message::message(problem, &Solution { status: Status::Interrupted, ..solution.clone() }, "");
+                message::message(problem, &Solution { status: Status::Interrupted, ..solution.clone() }, detail);
         }
         solution.status = Status::Interrupted;
     }

@@ -45,8 +45,8 @@ pub struct TradePoint {
     pub first: f64,
     /// The second quantity, SI units.
     pub second: f64,
-    /// Slope of the curve, d first / d second, from the shadow price of the bound; `None` at the end where the second
-    /// quantity is best.
+    /// Slope of the curve, d first / d second, from the shadow price of the bound; `None` at both ends, which no such bound
+    /// limits.
     pub slope: Option<f64>,
     /// The optimum.
     pub solution: Solution,
@@ -155,7 +155,7 @@ impl Trade<'_, '_, '_> {
         if second.status != Status::Optimal {
             return Ok(Err(TradeOutcome::NoSecond(Box::new(second))));
         }
-        Ok(Ok((self.point(first, Some(0.0)), self.point(second, None))))
+        Ok(Ok((self.point(first, None), self.point(second, None))))
     }
 
     /// Optima for one bound after the other, each from the last gait that was found; none after an interruption.

@@ -115,7 +115,9 @@ impl Report<'_> {
     /// How the optimum follows what is held fixed: the parameters that matter most, for 1 % more and for one unit more.
     fn sensitivities(&self) -> String {
         let s = self.solution;
-        let matters = |q: &&Sensitivity| q.derivative != 0.0 && s.parameters[q.parameter] != 0.0;
+        // What is below rounding of the objective is none.
+        let matters =
+            |q: &&Sensitivity| (0.01 * q.derivative * s.parameters[q.parameter]).abs() > 1e-12 * s.objective.abs();
         let rows: Vec<Vec<String>> = (s.sensitivities.iter().filter(matters).take(MOST_SENSITIVITIES))
             .map(|q| {
                 let parameter = &self.spec.parameters[q.parameter];

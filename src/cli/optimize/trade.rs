@@ -39,8 +39,17 @@ pub(super) fn run(
     if !(2..=MOST_POINTS).contains(&args.points) {
         return Err(InputError(format!("--points {}: give a number from 2 to {MOST_POINTS}", args.points)));
     }
+    places(args)?;
     let text = args.trade.as_deref().unwrap_or_default();
     let (first, second) = quantity::pair(&mut spec, &problem, text)?;
+    if let Some(objective) = args.maximize.as_deref().or(args.minimize.as_deref())
+        && ![&first.text, &second.text].contains(&&objective.trim().to_owned())
+    {
+        return Err(InputError(format!(
+            "--trade {text}: `{objective}`, which is to be optimised, is neither of the two\n  help: trade it for something, or \
+             leave it out and take ranges and constraints from --problem"
+        )));
+    }
     for quantity in [&first, &second] {
         request::depends_on_what_varies(&spec, &problem, quantity.node, &quantity.text)?;
     }
@@ -56,11 +65,10 @@ pub(super) fn run(
     }
     if let TradeOutcome::Curve(curve) = &outcome {
         if let Some(path) = &args.csv {
-            save(path, "--csv", &report.csv(curve).map_err(|e| InputError(format!("--csv: {e}")))?)?;
+            save(path, "--csv", report.csv(curve));
         }
         if let Some(path) = &args.plot {
-            let picture = report.picture(curve).svg().map_err(|e| InputError(format!("--plot: {e}")))?;
-            save(path, "--plot", picture.as_bytes())?;
+            save(path, "--plot", report.picture(curve).svg().map(String::into_bytes));
         }
     }
     Ok(match outcome {
@@ -73,13 +81,35 @@ pub(super) fn run(
     })
 }
 
-fn save(path: &Path, flag: &str, contents: &[u8]) -> Result<(), InputError> {
-    files::write(path, contents).map_err(|error| {
-        InputError(format!(
-            "{flag} {}: {error}\n  help: name a file in a folder that exists and can be written",
-            path.display()
-        ))
-    })
+/// Refuses files that cannot be written, or not as what they are named, before the work begins.
+fn places(args: &OptimizeArgs) -> Result<(), InputError> {
+    if args.csv.is_some() && args.csv == args.plot {
+        return Err(InputError("--csv and --plot name the same file\n  help: name two".to_owned()));
+    }
+    if let Some(path) = &args.plot
+        && let Some(kind) = path.extension().filter(|kind| !kind.eq_ignore_ascii_case("svg"))
+    {
+        let (path, kind) = (path.display(), kind.display());
+        return Err(InputError(format!("--plot {path}: pictures are SVG, not {kind}\n  help: end the name in `.svg`")));
+    }
+    for (flag, path) in [("--csv", &args.csv), ("--plot", &args.plot)] {
+        if let Some(path) = path {
+            files::try_place(path).map_err(|error| InputError(not_written(flag, path, &error)))?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file; what was printed stands even if that fails.
+fn save(path: &Path, flag: &str, contents: Result<Vec<u8>, Box<dyn std::error::Error>>) {
+    let written = contents.and_then(|contents| Ok(files::write(path, &contents)?));
+    if let Err(error) = written {
+        output::lose(&not_written(flag, path, &error));
+    }
+}
+
+fn not_written(flag: &str, path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("{flag} {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
 }
 
 impl<'l> Trade<'l> {

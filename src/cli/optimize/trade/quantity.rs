@@ -62,6 +62,9 @@ pub(super) fn pair(spec: &mut Model, problem: &Problem, text: &str) -> Result<(Q
     if a == b {
         return Err(wrong("both quantities are the same"));
     }
+    // A name that is not there is a better reason than a sense that is not known.
+    parse_objective(spec, a)?;
+    parse_objective(spec, b)?;
     let known_a = sense_a.or_else(|| known(spec, problem, a));
     let known_b = sense_b.or_else(|| known(spec, problem, b));
     let (sense_a, sense_b) = match (known_a, known_b) {
