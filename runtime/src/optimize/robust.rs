@@ -160,7 +160,7 @@ impl<'p> Robust<'p> {
                 Err(failure) => {
                     let at = scenarios::words(self.problem, self.uncertain, &self.values(scene));
                     return Ok(Err(format!(
-                        "the gait cannot be followed to {at}: {failure}; narrow the ranges of `--robust`, or give a first \
+                        "the gait cannot be followed to {at}: {failure}; narrow the uncertain ranges, or give a first \
                          guess that leads to a gait everywhere in them"
                     )));
                 }
