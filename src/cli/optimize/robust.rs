@@ -77,7 +77,12 @@ impl Report<'_> {
         let Some(Shown { uncertain, found }) = &self.robust else { return Value::Null };
         let name = |u: &Uncertain| self.spec.parameters[u.parameter].name.clone();
         let values = |values: &[f64]| -> Value {
-            uncertain.iter().zip(values).map(|(u, value)| (name(u), json!(value))).collect::<serde_json::Map<_, _>>().into()
+            uncertain
+                .iter()
+                .zip(values)
+                .map(|(u, value)| (name(u), json!(value)))
+                .collect::<serde_json::Map<_, _>>()
+                .into()
         };
         let scenario = |s: &Scenario| {
             json!({
@@ -89,7 +94,8 @@ impl Report<'_> {
                 "limits": s.limits.iter().map(|i| self.constraint(ActiveKind::Constraint(*i))).collect::<Vec<_>>(),
             })
         };
-        let exception = |e: &gaitc_runtime::optimize::Exception| json!({ "parameters": values(&e.values), "what": e.what });
+        let exception =
+            |e: &gaitc_runtime::optimize::Exception| json!({ "parameters": values(&e.values), "what": e.what });
         json!({
             "ranges": uncertain.iter().map(|u| (name(u), json!([u.lower, u.upper]))).collect::<serde_json::Map<_, _>>(),
             "nominal": found.nominal,
