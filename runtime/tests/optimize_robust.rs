@@ -1,5 +1,6 @@
 //! Robust problems against closed-form worst cases.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failing test should say where
+#![allow(clippy::print_stdout)] // shown for failing tests only
 
 mod optimize_support;
 

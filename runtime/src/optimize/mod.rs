@@ -40,6 +40,7 @@ mod program;
 mod quasi_newton;
 mod restore;
 mod robust;
+mod rows;
 mod scene;
 mod search;
 mod second_order;

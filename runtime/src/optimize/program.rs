@@ -10,23 +10,14 @@ use super::characteristic::Characteristic;
 use super::jury;
 use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
+pub(super) use super::rows::Row;
+use super::rows::rows;
 use super::scene::{Scene, stacked};
 use super::task::{Goal, Task};
-use super::variables::{DEADBEAT, Free, Variables};
+use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
-
-/// Where an inequality row comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Row {
-    /// A margin (index into the problem's constraints).
-    Margin(usize),
-    /// A Jury inequality: of a constraint, or of the epigraph of the objective (`None`); which of them.
-    Jury(Option<usize>, usize),
-    /// The objective of a scene is no worse than the epigraph variable.
-    Worst,
-}
 
 /// Why there are no values or derivatives at a point.
 #[derive(Clone, Debug)]
@@ -393,42 +384,4 @@ impl<'a> Program<'a> {
         let nominal = &self.variables.nominal;
         DMatrix::from_fn(nominal.len(), nominal.len(), |i, j| jacobian[(i, j)] * nominal[j] / nominal[i])
     }
-}
-
-/// Rows with their scenes, in the order in which `evaluate` writes them.
-fn rows(problem: &Problem<'_>, task: &Task, scenes: usize) -> Vec<(Row, usize)> {
-    let count = jury::count(problem.start.len());
-    let jury = |of| (0..scenes).flat_map(move |s| (0..count).map(move |which| (Row::Jury(of, which), s)));
-    let mut rows = Vec::new();
-    if task.minimises_radius(problem) {
-        rows.extend(jury(None));
-    } else if scenes > 1 {
-        rows.extend((0..scenes).map(|s| (Row::Worst, s)));
-    }
-    for (i, constraint) in problem.constraints.iter().enumerate() {
-        match constraint.kind {
-            _ if !task.keeps(i) => {}
-            ConstraintKind::Margin { .. } => rows.extend((0..scenes).map(|s| (Row::Margin(i), s))),
-            ConstraintKind::SpectralRadius { .. } => rows.extend(jury(Some(i))),
-        }
-    }
-    rows
-}
-
-/// Nominal size of each coordinate: its magnitude at the gait, or how far the gait moves (to first order) when the
-/// parameters cross their ranges, whichever is larger; 1 where both vanish.
-fn nominal_sizes(map: &MapResult, section: &[f64], variables: &Variables) -> Vec<f64> {
-    let d = section.len();
-    let inverse = (DMatrix::identity(d, d) - map.jacobian.columns(0, d)).try_inverse();
-    let shift = |i: usize| -> f64 {
-        let Some(inverse) = &inverse else { return 0.0 };
-        let move_of = |j: usize| (inverse.row(i) * map.jacobian.column(d + j))[0] * variables.unit(j);
-        (0..variables.free.len()).map(move_of).fold(0.0, |a: f64, b| a.max(b.abs()))
-    };
-    (0..d)
-        .map(|i| {
-            let size = section[i].abs().max(shift(i).min(10.0 * section[i].abs().max(1.0)));
-            if size > 0.0 && size.is_finite() { size } else { 1.0 }
-        })
-        .collect()
 }

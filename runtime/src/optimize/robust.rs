@@ -229,6 +229,15 @@ impl<'p> Robust<'p> {
         let exceptions = checked.worse.into_iter().map(|worse| Exception { values: worse.values, what: worse.what });
         let mut exceptions: Vec<Exception> = exceptions.collect();
         exceptions.extend(checked.lost);
+        let mut solution = solution;
+        if !exceptions.is_empty() {
+            solution.notes.push(format!(
+                "of {} points inside the uncertain ranges {} do worse than all scenarios, or have no gait that can be followed; \
+                 narrow the ranges, or look at these points with `gait`",
+                checked.points,
+                exceptions.len()
+            ));
+        }
         RobustSolution {
             scenarios: judge::scenarios(self, found),
             solution,

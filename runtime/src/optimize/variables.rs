@@ -2,6 +2,8 @@
 //! nominal size) and, when the spectral radius or the worst of several scenes is the objective, its epigraph variable.
 
 use super::problem::Vary;
+use crate::return_map::MapResult;
+use nalgebra::DMatrix;
 
 /// Smallest epigraph variable, relative to the spectral radius at the start. At r = 0 the Jury inequalities have no
 /// gradient in r; a map with a spectral radius this small is deadbeat for every practical purpose (and rounding moves
@@ -109,4 +111,22 @@ impl Free {
     pub(super) fn fraction(&self, value: f64) -> f64 {
         ((value - self.lower) / self.range()).clamp(0.0, 1.0)
     }
+}
+
+/// Nominal size of each coordinate: its magnitude at the gait, or how far the gait moves (to first order) when the
+/// parameters cross their ranges, whichever is larger; 1 where both vanish.
+pub(super) fn nominal_sizes(map: &MapResult, section: &[f64], variables: &Variables) -> Vec<f64> {
+    let d = section.len();
+    let inverse = (DMatrix::identity(d, d) - map.jacobian.columns(0, d)).try_inverse();
+    let shift = |i: usize| -> f64 {
+        let Some(inverse) = &inverse else { return 0.0 };
+        let move_of = |j: usize| (inverse.row(i) * map.jacobian.column(d + j))[0] * variables.unit(j);
+        (0..variables.free.len()).map(move_of).fold(0.0, |a: f64, b| a.max(b.abs()))
+    };
+    (0..d)
+        .map(|i| {
+            let size = section[i].abs().max(shift(i).min(10.0 * section[i].abs().max(1.0)));
+            if size > 0.0 && size.is_finite() { size } else { 1.0 }
+        })
+        .collect()
 }

@@ -54,23 +54,25 @@ pub(super) fn check(robust: &Robust<'_>, found: &Found<'_>) -> Result<Checked, P
         }
     }
     let worst = worst_scenario(found);
-    let mut kinds: Vec<(String, Box<dyn Fn(&Standing) -> f64 + '_>)> = Vec::new();
     let sign = if robust.problem.sense == Sense::Maximize { -1.0 } else { 1.0 };
-    let deficit = move |standing: &Standing| sign * (standing.objective - worst) / worst.abs().max(f64::MIN_POSITIVE);
-    kinds.push(("the objective is worse".to_owned(), Box::new(deficit)));
-    for (i, constraint) in robust.problem.constraints.iter().enumerate() {
-        let violation = move |standing: &Standing| -standing.scaled[i];
-        kinds.push((format!("`{}` does not hold", constraint.name), Box::new(violation)));
-    }
-    for (what, badness) in &kinds {
-        // What is not a number is as bad as can be.
-        let bad = |standing: &Standing| Some(badness(standing)).filter(|b| !b.is_nan()).unwrap_or(f64::INFINITY);
-        let Some((values, gait, standing)) = all.iter().max_by(|a, b| bad(&a.2).total_cmp(&bad(&b.2))) else {
-            continue;
+    // How bad a point is in the objective, and then in each constraint; what is not a number is as bad as can be.
+    let deficit = |standing: &Standing| sign * (standing.objective - worst) / worst.abs().max(f64::MIN_POSITIVE);
+    let bad = |standing: &Standing, of: usize| {
+        let bad = of.checked_sub(1).map_or_else(|| deficit(standing), |i| -standing.scaled[i]);
+        if bad.is_nan() { f64::INFINITY } else { bad }
+    };
+    for of in 0..=robust.problem.constraints.len() {
+        let Some((values, gait, standing)) = all.iter().max_by(|a, b| bad(&a.2, of).total_cmp(&bad(&b.2, of))) else {
+            break;
         };
-        if bad(standing) > SLACK && !checked.worse.iter().any(|known| known.values == *values) {
+        let by = bad(standing, of);
+        if by > SLACK && !checked.worse.iter().any(|known| known.values == *values) {
+            let what = match of.checked_sub(1) {
+                None => "the objective is worse".to_owned(),
+                Some(i) => format!("`{}` does not hold", robust.problem.constraints[i].name),
+            };
             let (values, section) = (values.clone(), gait.section.clone());
-            checked.worse.push(Worse { values, section, what: format!("{what} (by {:.1e})", bad(standing)) });
+            checked.worse.push(Worse { values, section, what: format!("{what} (by {by:.1e})") });
         }
     }
     Ok(checked)
