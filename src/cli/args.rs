@@ -169,6 +169,9 @@ pub(crate) struct OptimizeArgs {
     /// Constraint, e.g. --subject-to 'mean_power <= 60 [W]'
     #[arg(long = "subject-to", value_name = "EXPR", allow_hyphen_values = true)]
     pub(crate) subject_to: Vec<String>,
+    /// Parameter that is only known to lie in a range: the best worst case over it, e.g. --robust 'm=2.4..2.8 kg'
+    #[arg(long, value_name = "NAME=LO..HI", allow_hyphen_values = true, conflicts_with = "trade")]
+    pub(crate) robust: Vec<String>,
     /// Number of maps that make the gait [default: that of the problem, else 1]
     #[arg(long, value_name = "K")]
     pub(crate) period: Option<usize>,

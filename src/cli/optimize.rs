@@ -5,6 +5,7 @@ mod fixed;
 mod optima;
 mod report;
 mod request;
+mod robust;
 mod trade;
 mod verdict;
 
@@ -12,7 +13,7 @@ use super::args::{Cli, OptimizeArgs};
 use super::{INTERRUPTED, InputError, Outcome, inputs};
 use crate::load::load;
 use crate::problem::{Start, assemble};
-use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve};
+use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve, solve_robust};
 use report::Report;
 
 /// More starts than this tell nothing new and would run for days.
@@ -30,9 +31,12 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let (spec, problem) = request::problem(&loaded, args)?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
+    let uncertain = robust::uncertain(&loaded, args, &problem)?;
     let mut warnings = inputs::outside_range(&loaded, &parameters);
     warnings.extend(inputs::varies_outside(&loaded, &problem));
-    warnings.extend(fixed::constraints(&spec, &problem, &parameters)?);
+    let loose = robust::loose(&problem, &uncertain);
+    robust::stability_bounds(&spec, &loose, &parameters, &uncertain)?;
+    warnings.extend(fixed::constraints(&spec, &loose, &parameters)?);
     let settings = Settings {
         accuracy: inputs::accuracy(&args.search)?,
         starts: args.starts,
@@ -45,12 +49,19 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     if args.trade.is_some() {
         return trade::run(&loaded, (spec, problem), start, (args, cli.json), &warnings);
     }
-    let mut solution = solve(&assemble(&loaded, &spec, &problem, start))?;
+    let assembled = assemble(&loaded, &spec, &problem, start);
+    let (mut solution, robust) = if uncertain.is_empty() {
+        (solve(&assembled)?, None)
+    } else {
+        let robust = solve_robust(assembled, &uncertain)?;
+        (robust.solution.clone(), Some(robust))
+    };
     solution.notes.splice(0..0, warnings);
     if let Some(message) = conflict::message(&spec, &problem, &solution) {
         solution.message = message;
     }
-    let report = Report { spec: &spec, problem: &problem, solution: &solution };
+    let robust = robust.as_ref().map(|found| robust::Shown { uncertain: &uncertain, found });
+    let report = Report { spec: &spec, problem: &problem, solution: &solution, robust };
     if cli.json {
         report.print_json();
     } else {

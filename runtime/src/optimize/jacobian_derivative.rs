@@ -74,21 +74,30 @@ fn tangents(program: &Program<'_>, point: &Point) -> Option<DMatrix<f64>> {
 fn second_order(program: &Program<'_>, point: &Point) -> Result<Option<Vec<DMatrix<f64>>>, Failure> {
     let (variables, u) = (&program.variables, point.u.as_slice());
     let (parameters, section) = (variables.parameters(u, &program.base), variables.section(u));
-    let Some(plan) = program.plan(&parameters, &section)? else {
-        return Ok(None);
-    };
     let chosen: Vec<usize> = variables.free.iter().map(|free| free.parameter).collect();
-    let at = Points { coordinates: &section, parameters: &parameters };
-    let Some(exact) = program.problem.map.second_order(&plan, at, &chosen)? else {
-        return Ok(None);
-    };
-    let (m, d) = (chosen.len(), section.len());
-    // Unknowns are parameters, then coordinates; directions of the sensitivities the other way round.
-    let derivative = |j: usize| {
-        let direction = if j < m { d + j } else { j - m };
-        exact.second.get(direction).map(|second| program.scaled_jacobian(second) * variables.unit(j))
-    };
-    let all: Option<Vec<_>> = (0..m + d).map(derivative).collect();
+    let (m, d, all) = (chosen.len(), program.problem.start.len(), section.len());
+    let mut second = vec![DMatrix::zeros(all, all); m + all];
+    for (s, scene) in program.scenes.iter().enumerate() {
+        let (own, block) = (scene.parameters(&parameters), program.block(s));
+        let at = Points { coordinates: &section[block.clone()], parameters: &own };
+        let Some(plan) = program.plan(at.parameters, at.coordinates)? else {
+            return Ok(None);
+        };
+        let Some(exact) = program.problem.map.second_order(&plan, at, &chosen)? else {
+            return Ok(None);
+        };
+        // Unknowns are parameters, then the coordinates of all scenes; directions of a map are its coordinates, then parameters.
+        let directions = (0..m).map(|j| (j, d + j)).chain((0..d).map(|i| (m + block.start + i, i)));
+        for (unknown, direction) in directions {
+            let Some(matrix) = exact.second.get(direction) else { return Ok(None) };
+            if direction >= d && scene.changes(chosen[direction - d]) {
+                continue;
+            }
+            second[unknown].view_mut((block.start, block.start), (d, d)).copy_from(&matrix.columns(0, d));
+        }
+    }
+    let derivative = |(j, second): (usize, &DMatrix<f64>)| program.scaled_jacobian(second) * variables.unit(j);
+    let all = Some(second.iter().enumerate().map(derivative).collect::<Vec<_>>());
     Ok(all.filter(|all| all.iter().all(|matrix| matrix.iter().all(|v| v.is_finite()))))
 }
 

@@ -49,13 +49,14 @@ impl Program<'_> {
         };
         let mut c = DMatrix::zeros(self.rows.len(), self.len());
         let mut radius = vec![0.0; self.rows.len()];
-        for (k, row) in self.rows.iter().enumerate() {
+        for (k, (row, &scene)) in self.rows.iter().zip(&self.row_scenes).enumerate() {
             match *row {
-                Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, point)?.transpose()),
+                Row::Worst => c.set_row(k, &self.shortfall_gradient(scene, point)?.transpose()),
+                Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, scene, point)?.transpose()),
                 // All rows of a block at once, when its first comes.
                 Row::Jury(of, 0) => {
                     for (i, (gradient, slope)) in
-                        self.jury_gradients(of, point, &derivative.along)?.into_iter().enumerate()
+                        self.jury_gradients((of, scene), point, &derivative.along)?.into_iter().enumerate()
                     {
                         c.set_row(k + i, &gradient.transpose());
                         radius[k + i] = slope;
@@ -76,15 +77,16 @@ impl Program<'_> {
     /// Gradients of a block of Jury rows, and their derivatives with respect to the bound in SI units.
     fn jury_gradients(
         &self,
-        of: Option<usize>,
+        (of, scene): (Option<usize>, usize),
         point: &Point,
         derivative: &[DMatrix<f64>],
     ) -> Result<Vec<(DVector<f64>, f64)>, Failure> {
-        let bound = self.radius(of, &point.u, &point.map, &point.parameters)?;
+        let bound = self.radius(of, &point.u, (scene, &point.map), &point.parameters)?;
         let reference = self.reference(of);
-        let polynomial = self.characteristic(of, &point.map);
-        let slopes: Vec<Vec<f64>> = derivative.iter().map(|d| polynomial.derivative(&(d / reference))).collect();
-        let mut dbound = self.total(&bound, point);
+        let polynomial = self.characteristic(of, scene, &point.map);
+        let slope = |d: &DMatrix<f64>| polynomial.derivative(&(self.own(scene, d) / reference));
+        let slopes: Vec<Vec<f64>> = derivative.iter().map(slope).collect();
+        let mut dbound = self.total(&bound, scene, point);
         if let (None, Some(at)) = (of, self.variables.epigraph_at()) {
             dbound[at] = 1.0;
         }
@@ -119,8 +121,8 @@ impl Program<'_> {
     pub(super) fn objective_gradient(&self, point: &Point) -> Result<DVector<f64>, Failure> {
         let gradient = match self.goal() {
             Some((what, e)) => {
-                let value = self.value(what, e, &point.map, &point.parameters)?;
-                self.total(&value, point)
+                let value = self.value(what, e, (0, &point.map), &point.parameters)?;
+                self.total(&value, 0, point)
             }
             None => {
                 let unit = self.variables.epigraph.unwrap_or(1.0);
@@ -130,20 +132,21 @@ impl Program<'_> {
         Ok(gradient * (self.sign() / self.objective_scale))
     }
 
-    fn margin_gradient(&self, i: usize, point: &Point) -> Result<DVector<f64>, Failure> {
+    fn margin_gradient(&self, i: usize, scene: usize, point: &Point) -> Result<DVector<f64>, Failure> {
         let constraint = &self.problem.constraints[i];
         match &constraint.kind {
             ConstraintKind::Margin { margin, scale } => {
-                let value = self.value(&constraint.name, margin.as_ref(), &point.map, &point.parameters)?;
-                Ok(self.total(&value, point) / *scale)
+                let value = self.value(&constraint.name, margin.as_ref(), (scene, &point.map), &point.parameters)?;
+                Ok(self.total(&value, scene, point) / *scale)
             }
             ConstraintKind::SpectralRadius { .. } => Ok(DVector::zeros(self.len())),
         }
     }
 
-    /// Total derivative of an expression with respect to u, through the measures.
-    fn total(&self, value: &Value, point: &Point) -> DVector<f64> {
+    /// Total derivative of an expression of a scene with respect to u, through the measures.
+    pub(super) fn total(&self, value: &Value, scene: usize, point: &Point) -> DVector<f64> {
         let m = self.variables.free.len();
+        let first = scene * value.dmeasures.len();
         let mut gradient = DVector::zeros(self.len());
         for j in 0..m + self.variables.nominal.len() {
             let column = self.column(j);
@@ -153,9 +156,12 @@ impl Program<'_> {
                 .enumerate()
                 // A measure that does not matter may have no derivative there.
                 .filter(|(_, d)| **d != 0.0)
-                .map(|(k, d)| d * point.map.measures_jacobian[(k, column)])
+                .map(|(k, d)| d * point.map.measures_jacobian[(first + k, column)])
                 .sum();
-            let direct = self.variables.free.get(j).map_or(0.0, |free| value.dparameters[free.parameter]);
+            let direct = match self.variables.free.get(j) {
+                Some(free) if !self.scenes[scene].changes(free.parameter) => value.dparameters[free.parameter],
+                _ => 0.0,
+            };
             gradient[j] = (through + direct) * self.variables.unit(j);
         }
         gradient

@@ -39,6 +39,9 @@ mod problem;
 mod program;
 mod quasi_newton;
 mod restore;
+mod robust;
+mod rows;
+mod scene;
 mod search;
 mod second_order;
 mod sobol;
@@ -59,6 +62,7 @@ pub use optima::Optimum;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
+pub use robust::{Exception, RobustSolution, Scenario, Uncertain, solve_robust};
 pub use solution::{
     Active, ActiveKind, Confirmation, Curvature, Disturbed, Independent, Kink, Route, Sensitivity, Shape, Solution,
     Starts, Status,

@@ -182,6 +182,20 @@ pub enum ProblemError {
     /// A parameter is varied twice.
     #[error("parameter `{0}` is varied twice; keep one of the two ranges")]
     VariedTwice(&'static str),
+    /// No parameter of a robust problem is uncertain.
+    #[error("nothing is uncertain; name at least one parameter with a range, or solve the problem as it is")]
+    NothingUncertain,
+    /// A parameter is varied and uncertain.
+    #[error("parameter `{0}` is varied, so it cannot be uncertain; keep its range in one of the two")]
+    VariedAndUncertain(&'static str),
+    /// A parameter is uncertain twice.
+    #[error("parameter `{0}` is uncertain twice; keep one of the two ranges")]
+    UncertainTwice(&'static str),
+    /// A bound on the spectral radius that depends on something, in a robust problem.
+    #[error(
+        "constraint `{0}`: in a robust problem the bound on the spectral radius has to be a number; write one, such as 0.95"
+    )]
+    RobustBound(String),
     /// Bounds the wrong way round.
     #[error("the range of `{name}` is empty: {lower} is above {upper}; write the smaller bound first")]
     EmptyRange {

@@ -2,25 +2,22 @@
 //!
 //! h is the scaled periodicity P(z; p) - z, c the scaled margins and Jury rows. One map evaluation gives all values and
 //! all first derivatives except those of the Jacobian's entries (module `jacobian_derivative`).
+//!
+//! A robust problem has several scenes (module `scene`): one design, and in each scene a gait of its own. Coordinates, measures and
+//! Jacobians of all scenes are stacked, the rows of each scene follow each other, and the objective is the worst of all.
 
 use super::characteristic::Characteristic;
 use super::jury;
 use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
+pub(super) use super::rows::Row;
+use super::rows::rows;
+use super::scene::{Scene, stacked};
 use super::task::{Goal, Task};
-use super::variables::{Free, Variables};
+use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
-
-/// Where an inequality row comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Row {
-    /// A margin (index into the problem's constraints).
-    Margin(usize),
-    /// A Jury inequality: of a constraint, or of the epigraph of the objective (`None`); which of them.
-    Jury(Option<usize>, usize),
-}
 
 /// Why there are no values or derivatives at a point.
 #[derive(Clone, Debug)]
@@ -65,6 +62,12 @@ pub(super) struct Program<'a> {
     pub(super) base: Vec<f64>,
     pub(super) variables: Variables,
     pub(super) rows: Vec<Row>,
+    /// The machines that the design is for; usually one, as it is.
+    pub(super) scenes: Vec<Scene>,
+    /// Of each row, the scene.
+    pub(super) row_scenes: Vec<usize>,
+    /// The epigraph variable at the start, SI units.
+    pub(super) epigraph_start: f64,
     /// Reference radius of each constraint's Jury rows (1 for margins).
     references: Vec<f64>,
     /// Objective in SI units = sign * scale * f.
@@ -79,15 +82,29 @@ impl<'a> Program<'a> {
         parameters: &[f64],
         section: &[f64],
     ) -> Result<Self, Failure> {
+        Self::with_scenes(problem, task, vec![Scene::default()], parameters, section)
+    }
+
+    /// The same for several scenes (at least one), with the section coordinates of all their gaits one after the other.
+    pub(super) fn with_scenes(
+        problem: &'a Problem<'a>,
+        task: Task,
+        scenes: Vec<Scene>,
+        parameters: &[f64],
+        section: &[f64],
+    ) -> Result<Self, Failure> {
         let free = Variables::free(&problem.vary);
         let nominal = vec![1.0; section.len()];
-        let rows = rows(problem, &task);
+        let (rows, row_scenes) = rows(problem, &task, scenes.len()).into_iter().unzip();
         let mut program = Self {
             problem,
             task,
             base: parameters.to_vec(),
-            variables: Variables { free, nominal, epigraph: None },
+            variables: Variables { free, nominal, epigraph: None, floor: DEADBEAT },
             rows,
+            scenes,
+            row_scenes,
+            epigraph_start: 0.0,
             references: vec![1.0; problem.constraints.len()],
             objective_scale: 1.0,
         };
@@ -95,10 +112,12 @@ impl<'a> Program<'a> {
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
         if program.task.minimises_radius(problem) {
             let d = section.len();
-            program.variables.epigraph =
-                Some(spectral_radius(&multipliers(&map.jacobian.columns(0, d).into_owned())).max(1e-3));
+            let radius = spectral_radius(&multipliers(&map.jacobian.columns(0, d).into_owned())).max(1e-3);
+            program.variables.epigraph = Some(radius);
+            program.epigraph_start = radius;
         }
         program.set_references(parameters, &map)?;
+        program.set_worst(parameters, section)?;
         program.set_objective_scale(parameters, section)?;
         Ok(program)
     }
@@ -111,6 +130,9 @@ impl<'a> Program<'a> {
             base: base.to_vec(),
             variables: Variables { free, ..self.variables.clone() },
             rows: self.rows.clone(),
+            scenes: self.scenes.clone(),
+            row_scenes: self.row_scenes.clone(),
+            epigraph_start: self.epigraph_start,
             references: self.references.clone(),
             objective_scale: self.objective_scale,
         }
@@ -122,7 +144,7 @@ impl<'a> Program<'a> {
                 self.references[i] = match bound {
                     Bound::Constant(r) => *r,
                     Bound::Expression(e) => {
-                        let r = self.value(&constraint.name, e.as_ref(), map, parameters)?.value.abs();
+                        let r = self.value(&constraint.name, e.as_ref(), (0, map), parameters)?.value.abs();
                         if r > 1e-3 { r } else { 1.0 }
                     }
                 };
@@ -133,7 +155,7 @@ impl<'a> Program<'a> {
 
     /// Scale 1 gives the raw objective and gradient; from these the scale.
     fn set_objective_scale(&mut self, parameters: &[f64], section: &[f64]) -> Result<(), Failure> {
-        let u = self.variables.pack(parameters, section, self.variables.epigraph.unwrap_or(0.0));
+        let u = self.variables.pack(parameters, section, self.epigraph_start);
         let point = self.evaluate(&DVector::from_vec(u))?;
         let gradient = self.objective_gradient(&point)?;
         let scale = gradient.amax().max(1e-3 * point.f.abs());
@@ -155,9 +177,10 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// The function that is optimised, and its name; `None` for the spectral radius.
+    /// The function that is optimised, and its name; `None` where that is the epigraph variable.
     pub(super) fn goal(&self) -> Option<(&str, &dyn Expression)> {
         match self.task.goal {
+            _ if self.worst() => None,
             Goal::Asked => match &self.problem.objective {
                 Objective::Expression(e) => Some(("the objective", e.as_ref())),
                 Objective::SpectralRadius => None,
@@ -175,7 +198,7 @@ impl<'a> Program<'a> {
         let settings = &self.problem.settings;
         let holds = match self.goal() {
             Some(_) => point.f <= 0.0,
-            None => self.radius(Some(i), &point.u, &point.map, &point.parameters).is_ok_and(|bound| {
+            None => self.radius(Some(i), &point.u, (0, &point.map), &point.parameters).is_ok_and(|bound| {
                 let d = point.section.len();
                 let multipliers = multipliers(&point.map.jacobian.columns(0, d).into_owned());
                 spectral_radius(&multipliers) <= bound.value * self.reference(Some(i))
@@ -190,8 +213,31 @@ impl<'a> Program<'a> {
         self.request(parameters, section, Sensitivity::CoordinatesAndParameters(&columns), true)
     }
 
-    /// One evaluation of the map; a result that is not finite is a failure.
+    /// One evaluation of the map in every scene, stacked; a result that is not finite is a failure.
     pub(super) fn request(
+        &self,
+        parameters: &[f64],
+        section: &[f64],
+        sensitivity: Sensitivity<'_>,
+        measures: bool,
+    ) -> Result<MapResult, Failure> {
+        if let [scene] = self.scenes.as_slice() {
+            return self.request_one(&scene.parameters(parameters), section, sensitivity, measures);
+        }
+        let one = |(s, scene): (usize, &Scene)| {
+            self.request_one(&scene.parameters(parameters), &section[self.block(s)], sensitivity, measures)
+        };
+        let maps: Result<Vec<MapResult>, Failure> = self.scenes.iter().enumerate().map(one).collect();
+        Ok(stacked(&maps?, self.problem.start.len()))
+    }
+
+    /// Where the coordinates of a scene stand among those of all.
+    pub(super) fn block(&self, scene: usize) -> std::ops::Range<usize> {
+        let d = self.problem.start.len();
+        scene * d..(scene + 1) * d
+    }
+
+    fn request_one(
         &self,
         parameters: &[f64],
         section: &[f64],
@@ -216,7 +262,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// The plan of the map at a point, if there is one for a single map.
+    /// The plan of the map at parameters and coordinates of a scene, if there is one for a single map.
     pub(super) fn plan(&self, parameters: &[f64], section: &[f64]) -> Result<Option<Plan>, Failure> {
         let (_, plan) = self.problem.map.plan(&MapRequest {
             coordinates: section,
@@ -238,21 +284,24 @@ impl<'a> Program<'a> {
         let f = self.sign() * self.objective(u, &map, &parameters)? / self.objective_scale;
         let h = DVector::from_fn(section.len(), |i, _| (map.coordinates[i] - section[i]) / self.variables.nominal[i]);
         let mut c = Vec::with_capacity(self.rows.len());
-        if self.task.minimises_radius(self.problem) {
-            let radius = self.radius(None, u, &map, &parameters)?.value;
-            c.extend(jury::rows(&self.characteristic(None, &map).coefficients, radius).iter().map(|row| row.value));
-        }
-        for (i, constraint) in self.problem.constraints.iter().enumerate() {
-            match &constraint.kind {
-                _ if !self.task.keeps(i) => {}
-                ConstraintKind::Margin { margin, scale } => {
-                    c.push(self.value(&constraint.name, margin.as_ref(), &map, &parameters)?.value / scale);
+        for (row, &scene) in self.rows.iter().zip(&self.row_scenes) {
+            match *row {
+                Row::Worst => c.push(self.shortfall(scene, u, &map, &parameters)?),
+                Row::Margin(i) => {
+                    let constraint = &self.problem.constraints[i];
+                    if let ConstraintKind::Margin { margin, scale } = &constraint.kind {
+                        c.push(
+                            self.value(&constraint.name, margin.as_ref(), (scene, &map), &parameters)?.value / scale,
+                        );
+                    }
                 }
-                ConstraintKind::SpectralRadius { .. } => {
-                    let radius = self.radius(Some(i), u, &map, &parameters)?.value;
-                    let p = self.characteristic(Some(i), &map);
+                // All rows of a block at once, when its first comes.
+                Row::Jury(of, 0) => {
+                    let radius = self.radius(of, u, (scene, &map), &parameters)?.value;
+                    let p = self.characteristic(of, scene, &map);
                     c.extend(jury::rows(&p.coefficients, radius).iter().map(|row| row.value));
                 }
+                Row::Jury(..) => {}
             }
         }
         Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c) })
@@ -261,7 +310,7 @@ impl<'a> Program<'a> {
     /// Objective in SI units.
     fn objective(&self, u: &DVector<f64>, map: &MapResult, parameters: &[f64]) -> Result<f64, Failure> {
         match self.goal() {
-            Some((what, e)) => Ok(self.value(what, e, map, parameters)?.value),
+            Some((what, e)) => Ok(self.value(what, e, (0, map), parameters)?.value),
             None => {
                 let unit = self.variables.epigraph.unwrap_or(1.0);
                 Ok(self.variables.epigraph_at().map_or(0.0, |at| u[at] * unit))
@@ -269,15 +318,17 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// An expression's value, checked: right lengths, finite.
+    /// An expression's value in a scene, checked: right lengths, finite.
     pub(super) fn value(
         &self,
         what: &str,
         e: &dyn Expression,
-        map: &MapResult,
+        (scene, map): (usize, &MapResult),
         parameters: &[f64],
     ) -> Result<Value, Failure> {
-        let value = e.evaluate(map.measures.as_slice(), parameters);
+        let count = map.measures.len() / self.scenes.len();
+        let measures = &map.measures.as_slice()[scene * count..(scene + 1) * count];
+        let value = e.evaluate(measures, &self.scenes[scene].parameters(parameters));
         self.problem.check_value(what, &value).map_err(Failure::Wrong)?;
         if value.value.is_finite() { Ok(value) } else { Err(Failure::NotFinite(what.to_owned())) }
     }
@@ -287,12 +338,12 @@ impl<'a> Program<'a> {
         of.map_or(self.variables.epigraph.unwrap_or(1.0), |i| self.references[i])
     }
 
-    /// The bound on the spectral radius in units of its reference.
+    /// The bound on the spectral radius of a scene in units of its reference.
     pub(super) fn radius(
         &self,
         of: Option<usize>,
         u: &DVector<f64>,
-        map: &MapResult,
+        map: (usize, &MapResult),
         p: &[f64],
     ) -> Result<Value, Failure> {
         let info = self.problem.map.info();
@@ -317,9 +368,15 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Characteristic polynomial of the Jacobian in scaled coordinates, in units of the reference radius.
-    pub(super) fn characteristic(&self, of: Option<usize>, map: &MapResult) -> Characteristic {
-        Characteristic::new(&(self.scaled_jacobian(&map.jacobian) / self.reference(of)))
+    /// Characteristic polynomial of a scene's Jacobian in scaled coordinates, in units of the reference radius.
+    pub(super) fn characteristic(&self, of: Option<usize>, scene: usize, map: &MapResult) -> Characteristic {
+        Characteristic::new(&(self.own(scene, &self.scaled_jacobian(&map.jacobian)) / self.reference(of)))
+    }
+
+    /// The block of a scene in a matrix over the coordinates of all.
+    pub(super) fn own(&self, scene: usize, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let block = self.block(scene);
+        matrix.view((block.start, block.start), (block.len(), block.len())).into_owned()
     }
 
     /// The d x d Jacobian in scaled coordinates: a similarity, so the multipliers are the same.
@@ -327,39 +384,4 @@ impl<'a> Program<'a> {
         let nominal = &self.variables.nominal;
         DMatrix::from_fn(nominal.len(), nominal.len(), |i, j| jacobian[(i, j)] * nominal[j] / nominal[i])
     }
-}
-
-/// Rows in the order in which `evaluate` writes them.
-fn rows(problem: &Problem<'_>, task: &Task) -> Vec<Row> {
-    let jury = |of| (0..jury::count(problem.start.len())).map(move |which| Row::Jury(of, which));
-    let mut rows = Vec::new();
-    if task.minimises_radius(problem) {
-        rows.extend(jury(None));
-    }
-    for (i, constraint) in problem.constraints.iter().enumerate() {
-        match constraint.kind {
-            _ if !task.keeps(i) => {}
-            ConstraintKind::Margin { .. } => rows.push(Row::Margin(i)),
-            ConstraintKind::SpectralRadius { .. } => rows.extend(jury(Some(i))),
-        }
-    }
-    rows
-}
-
-/// Nominal size of each coordinate: its magnitude at the gait, or how far the gait moves (to first order) when the
-/// parameters cross their ranges, whichever is larger; 1 where both vanish.
-fn nominal_sizes(map: &MapResult, section: &[f64], variables: &Variables) -> Vec<f64> {
-    let d = section.len();
-    let inverse = (DMatrix::identity(d, d) - map.jacobian.columns(0, d)).try_inverse();
-    let shift = |i: usize| -> f64 {
-        let Some(inverse) = &inverse else { return 0.0 };
-        let move_of = |j: usize| (inverse.row(i) * map.jacobian.column(d + j))[0] * variables.unit(j);
-        (0..variables.free.len()).map(move_of).fold(0.0, |a: f64, b| a.max(b.abs()))
-    };
-    (0..d)
-        .map(|i| {
-            let size = section[i].abs().max(shift(i).min(10.0 * section[i].abs().max(1.0)));
-            if size > 0.0 && size.is_finite() { size } else { 1.0 }
-        })
-        .collect()
 }

@@ -1,12 +1,14 @@
 //! The unknowns in scaled form: varied parameters (0 to 1 over their ranges), section coordinates (in units of their
-//! nominal size) and, when the spectral radius is the objective, its epigraph variable.
+//! nominal size) and, when the spectral radius or the worst of several scenes is the objective, its epigraph variable.
 
 use super::problem::Vary;
+use crate::return_map::MapResult;
+use nalgebra::DMatrix;
 
 /// Smallest epigraph variable, relative to the spectral radius at the start. At r = 0 the Jury inequalities have no
 /// gradient in r; a map with a spectral radius this small is deadbeat for every practical purpose (and rounding moves
 /// the multipliers of a defective matrix by more).
-const DEADBEAT: f64 = 1e-5;
+pub(super) const DEADBEAT: f64 = 1e-5;
 
 /// A parameter that really varies.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +28,8 @@ pub(super) struct Variables {
     pub(super) nominal: Vec<f64>,
     /// Unit of the epigraph variable.
     pub(super) epigraph: Option<f64>,
+    /// Least value of the epigraph variable in that unit.
+    pub(super) floor: f64,
 }
 
 impl Variables {
@@ -57,7 +61,7 @@ impl Variables {
         if i < self.free.len() {
             (0.0, 1.0)
         } else if Some(i) == self.epigraph_at() {
-            (DEADBEAT, f64::INFINITY)
+            (self.floor, f64::INFINITY)
         } else {
             (f64::NEG_INFINITY, f64::INFINITY)
         }
@@ -77,11 +81,11 @@ impl Variables {
         self.nominal.iter().zip(&u[self.section_at()..]).map(|(scale, u)| scale * u).collect()
     }
 
-    /// u from parameters, section and epigraph variable.
-    pub(super) fn pack(&self, parameters: &[f64], section: &[f64], radius: f64) -> Vec<f64> {
+    /// u from parameters, section and epigraph variable (SI units).
+    pub(super) fn pack(&self, parameters: &[f64], section: &[f64], epigraph: f64) -> Vec<f64> {
         let mut u: Vec<f64> = self.free.iter().map(|free| free.fraction(parameters[free.parameter])).collect();
         u.extend(section.iter().zip(&self.nominal).map(|(z, scale)| z / scale));
-        u.extend(self.epigraph.map(|unit| (radius / unit).max(DEADBEAT)));
+        u.extend(self.epigraph.map(|unit| (epigraph / unit).max(self.floor)));
         u
     }
 
@@ -107,4 +111,22 @@ impl Free {
     pub(super) fn fraction(&self, value: f64) -> f64 {
         ((value - self.lower) / self.range()).clamp(0.0, 1.0)
     }
+}
+
+/// Nominal size of each coordinate: its magnitude at the gait, or how far the gait moves (to first order) when the
+/// parameters cross their ranges, whichever is larger; 1 where both vanish.
+pub(super) fn nominal_sizes(map: &MapResult, section: &[f64], variables: &Variables) -> Vec<f64> {
+    let d = section.len();
+    let inverse = (DMatrix::identity(d, d) - map.jacobian.columns(0, d)).try_inverse();
+    let shift = |i: usize| -> f64 {
+        let Some(inverse) = &inverse else { return 0.0 };
+        let move_of = |j: usize| (inverse.row(i) * map.jacobian.column(d + j))[0] * variables.unit(j);
+        (0..variables.free.len()).map(move_of).fold(0.0, |a: f64, b| a.max(b.abs()))
+    };
+    (0..d)
+        .map(|i| {
+            let size = section[i].abs().max(shift(i).min(10.0 * section[i].abs().max(1.0)));
+            if size > 0.0 && size.is_finite() { size } else { 1.0 }
+        })
+        .collect()
 }

@@ -174,7 +174,7 @@ fn confirmed(
     let slack = if solution.kink.is_some() { 1e-4 } else { 1e-7 };
     for (i, constraint) in program.problem.constraints.iter().enumerate() {
         if let ConstraintKind::SpectralRadius { .. } = constraint.kind
-            && let Ok(bound) = program.radius(Some(i), &point.u, &point.map, &point.parameters)
+            && let Ok(bound) = program.radius(Some(i), &point.u, (0, &point.map), &point.parameters)
             && solution.spectral_radius > bound.value * program.reference(Some(i)) * (1.0 + slack)
         {
             let name = &constraint.name;
@@ -194,7 +194,7 @@ fn confirmed(
 }
 
 /// Active constraints by falling scaled multiplier, with shadow prices in SI units.
-fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
+pub(super) fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
     if !matches!(ended.end, End::Converged | End::Acceptable) {
         return Vec::new();
     }
@@ -237,7 +237,7 @@ fn constraint_price(program: &Program<'_>, ended: &Ended, i: usize, constraint: 
 }
 
 /// Whether a second multiplier, not the conjugate of the first, has nearly the same value.
-fn kink(multipliers: &[Complex<f64>]) -> Option<Kink> {
+pub(super) fn kink(multipliers: &[Complex<f64>]) -> Option<Kink> {
     let first = *multipliers.first()?;
     let size = first.norm();
     let next = multipliers.iter().skip(1).map(|m| (first - m).norm()).fold(f64::INFINITY, f64::min);
@@ -257,7 +257,7 @@ pub(super) fn undefined(start: &Start, what: &str) -> Verdict {
     without_values(Status::Undefined, message::undefined(what), start.parameters.clone(), start.section.clone())
 }
 
-fn without_values(status: Status, message: String, parameters: Vec<f64>, section: Vec<f64>) -> Verdict {
+pub(super) fn without_values(status: Status, message: String, parameters: Vec<f64>, section: Vec<f64>) -> Verdict {
     let solution = Solution {
         status,
         message,
@@ -284,6 +284,5 @@ fn without_values(status: Status, message: String, parameters: Vec<f64>, section
 
 /// The search's starting point as a point of the program.
 pub(super) fn starting_point(program: &Program<'_>, parameters: &[f64], section: &[f64]) -> Result<Point, Failure> {
-    let radius = program.variables.epigraph.unwrap_or(0.0);
-    program.evaluate(&DVector::from_vec(program.variables.pack(parameters, section, radius)))
+    program.evaluate(&DVector::from_vec(program.variables.pack(parameters, section, program.epigraph_start)))
 }

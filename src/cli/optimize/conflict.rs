@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// The message of a problem whose constraints cannot hold together; `None` where there is no conflict.
 pub(super) fn message(spec: &Model, problem: &Problem, solution: &Solution) -> Option<String> {
     let conflict = solution.conflict.as_ref()?;
-    let report = Report { spec, problem, solution };
+    let report = Report { spec, problem, solution, robust: None };
     let text = |member: &Reached| format!("`{}`", problem.constraints[member.constraint].text);
     let texts: Vec<String> = conflict.members.iter().map(text).collect();
     let reached: Vec<String> = conflict.members.iter().map(|member| report.reached_text(member, conflict)).collect();

@@ -1,5 +1,6 @@
 //! The verdict of an optimisation, as JSON and for people.
 
+use super::robust::Shown;
 use super::verdict;
 use crate::cli::output;
 use gaitc_compiler::front::{format_number, format_quantity, format_si, in_unit};
@@ -15,6 +16,8 @@ pub(super) struct Report<'a> {
     pub(super) spec: &'a Model,
     pub(super) problem: &'a Problem,
     pub(super) solution: &'a Solution,
+    /// For a robust problem, its scenarios.
+    pub(super) robust: Option<Shown<'a>>,
 }
 
 impl Report<'_> {
@@ -49,6 +52,7 @@ impl Report<'_> {
             "optima": self.optima_json(),
             "conflict": self.conflict_json(),
             "reached": self.reached_json(),
+            "robust": self.robust_json(),
             "confirmation": s.confirmation.as_ref().map(verdict::confirmation_json),
         }));
     }
@@ -93,6 +97,7 @@ impl Report<'_> {
             let rows = s.active.iter().map(|a| vec![self.constraint(a.kind), self.price(a)]);
             text += &format!("\n{}", output::table(&["what limits it", "price"], rows));
         }
+        text += &self.robust_text();
         text += &self.sensitivities();
         let mut gait: Vec<Vec<String>> = (self.coordinate_names().into_iter().zip(&s.section))
             .map(|(name, &value)| {
@@ -156,7 +161,7 @@ impl Report<'_> {
     }
 
     /// A bound or constraint as the user would write it.
-    fn constraint(&self, kind: ActiveKind) -> String {
+    pub(super) fn constraint(&self, kind: ActiveKind) -> String {
         let bound = |parameter: usize, relation: &str, upper: bool| {
             let p = &self.spec.parameters[parameter];
             let vary = self.problem.vary.iter().find(|v| v.parameter == parameter);

@@ -1,0 +1,36 @@
+//! The inequality rows of the nonlinear program: where each comes from, and their order.
+
+use super::jury;
+use super::problem::{ConstraintKind, Problem};
+use super::task::Task;
+
+/// Where an inequality row comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Row {
+    /// A margin (index into the problem's constraints).
+    Margin(usize),
+    /// A Jury inequality: of a constraint, or of the epigraph of the objective (`None`); which of them.
+    Jury(Option<usize>, usize),
+    /// The objective of a scene is no worse than the epigraph variable.
+    Worst,
+}
+
+/// Rows with their scenes, in the order in which `evaluate` writes them.
+pub(super) fn rows(problem: &Problem<'_>, task: &Task, scenes: usize) -> Vec<(Row, usize)> {
+    let count = jury::count(problem.start.len());
+    let jury = |of| (0..scenes).flat_map(move |s| (0..count).map(move |which| (Row::Jury(of, which), s)));
+    let mut rows = Vec::new();
+    if task.minimises_radius(problem) {
+        rows.extend(jury(None));
+    } else if scenes > 1 {
+        rows.extend((0..scenes).map(|s| (Row::Worst, s)));
+    }
+    for (i, constraint) in problem.constraints.iter().enumerate() {
+        match constraint.kind {
+            _ if !task.keeps(i) => {}
+            ConstraintKind::Margin { .. } => rows.extend((0..scenes).map(|s| (Row::Margin(i), s))),
+            ConstraintKind::SpectralRadius { .. } => rows.extend(jury(Some(i))),
+        }
+    }
+    rows
+}
