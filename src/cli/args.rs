@@ -35,7 +35,7 @@ pub(crate) enum Command {
     /// Find a periodic gait and its stability
     Gait(GaitArgs),
     /// Find the best gait over parameters
-    Optimize(OptimizeArgs),
+    Optimize(Box<OptimizeArgs>),
     /// Measure every generated derivative against an independent route
     Verify(VerifyArgs),
     /// Make a cargo project with a model of your own
