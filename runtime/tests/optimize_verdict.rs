@@ -232,7 +232,7 @@ fn without_an_optimum_there_is_no_verdict_on_it() {
     let mut problem = plane(&map, Sense::Maximize, expression(|m, _| m[0]), &[0.1, 0.1, 0.0, 0.0]);
     problem.constraints.push(margin("p0 >= 3", |_, p| p[0] - 3.0));
     let solution = solved(&problem);
-    assert_eq!(solution.status, Status::InfeasibleLocally);
+    assert_eq!(solution.status, Status::Infeasible);
     assert!(solution.curvature.is_none() && solution.sensitivities.is_empty());
 }
 
