@@ -9,6 +9,7 @@ use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 use super::task::{Goal, Task};
 use super::variables::{Free, Variables};
+use crate::event::NOTHING;
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
@@ -359,7 +360,7 @@ fn nominal_sizes(map: &MapResult, section: &[f64], variables: &Variables) -> Vec
     (0..d)
         .map(|i| {
             let size = section[i].abs().max(shift(i).min(10.0 * section[i].abs().max(1.0)));
-            if size > 0.0 && size.is_finite() { size } else { 1.0 }
+            if size > NOTHING && size.is_finite() { size } else { 1.0 }
         })
         .collect()
 }
