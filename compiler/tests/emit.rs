@@ -57,7 +57,9 @@ fn generated_code_keeps_its_promises() {
         let text = std::fs::read_to_string(test_file(&format!("golden/{}.rs", model.model().name))).unwrap();
         let file = syn::parse_file(&text).unwrap();
         let tokens = quote::quote!(#file).to_string();
-        for word in ["unsafe", "std ::", "alloc", "panic", "unwrap", "expect", "todo", "unreachable", "assert!", "assert_"] {
+        for word in
+            ["unsafe", "std ::", "alloc", "panic", "unwrap", "expect", "todo", "unreachable", "assert!", "assert_"]
+        {
             assert!(!tokens.contains(word), "`{word}` in {}", model.model().name);
         }
         assert!(!indexes(&file), "indexing can panic");
