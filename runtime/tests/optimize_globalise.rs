@@ -318,3 +318,26 @@ fn a_bound_far_away_in_the_parameters_own_size_does_not_limit_it() {
     // In a range of its size it is seen that the map stops before the bound.
     assert_eq!(at(100.0).status, Status::Stalled);
 }
+
+#[test]
+fn the_best_optimum_that_passes_the_long_tests_wins() {
+    // On the higher hill the map has a kink at its gait: differences to both sides do not show it, disturbed maps do.
+    let map = Closed::new(1, 1, 1, |z, p| {
+        let apart = z[0] - p[0];
+        let kink = if p[0].v > 1.5 { 0.2 } else { 0.0 };
+        Some((vec![p[0] + apart * 0.4 + c(kink * apart.v.abs())], vec![z[0]]))
+    });
+    let objective = expression(|m, _| {
+        (-((m[0] - 0.5) * (m[0] - 0.5) * 30.0)).exp() + (-((m[0] - 2.5) * (m[0] - 2.5) * 30.0)).exp() * 2.0
+    });
+    let mut problem = problem(&map, Sense::Maximize, objective, &[0.4], &[(0.3, 2.7)]);
+    problem.start = vec![0.4];
+    problem.settings.starts = 16;
+    let solution = solved(&problem);
+    assert_eq!(solution.status, Status::Optimal, "{}", solution.message);
+    assert_relative_eq!(solution.parameters[0], 0.5, epsilon = 1e-4);
+    assert!(solution.notes.iter().any(|note| note.contains("did not pass the long tests")), "{:?}", solution.notes);
+    assert_eq!(solution.optima[0].objective.to_bits(), solution.objective.to_bits());
+    problem.settings.long_tests = false;
+    assert_relative_eq!(solved(&problem).parameters[0], 2.5, epsilon = 1e-4);
+}
