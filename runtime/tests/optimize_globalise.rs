@@ -4,9 +4,11 @@
 mod optimize_support;
 
 use approx::assert_relative_eq;
+use gaitc_runtime::model::ModelInfo;
 use gaitc_runtime::optimize::{
     Constraint, ConstraintKind, Expression, Interrupt, Objective, Problem, Sense, Solution, Status, Value, solve,
 };
+use gaitc_runtime::return_map::{MapOutcome, MapRequest, RequestError, ReturnMap};
 use optimize_support::{Closed, Dual, Formed, about, expression, margin, problem, solved, spectral};
 
 fn c(v: f64) -> Dual {
@@ -263,4 +265,79 @@ fn an_interruption_before_anything_holds_says_so() {
     assert_eq!(solution.status, Status::Interrupted);
     assert!(solution.message.contains("before any gait met all constraints"), "{}", solution.message);
     assert!(solution.conflict.is_none());
+}
+
+/// A map whose step takes as long as its second measure says.
+struct Lasting(Closed);
+
+impl ReturnMap for Lasting {
+    fn info(&self) -> &'static ModelInfo {
+        self.0.info()
+    }
+
+    fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError> {
+        let outcome = self.0.evaluate(&MapRequest { measures: true, ..*request })?;
+        Ok(match outcome {
+            MapOutcome::Completed(mut map) => {
+                map.duration = map.measures[1];
+                MapOutcome::Completed(map)
+            }
+            stopped => stopped,
+        })
+    }
+}
+
+#[test]
+fn a_step_of_no_length_is_not_the_closest_gait() {
+    let formula = Closed::new(1, 1, 2, |z, p| Some((about(z, &[p[0]], &[vec![c(0.4)]]), vec![-z[0] + 0.8, z[0]])));
+    let map = Lasting(formula);
+    let mut problem = problem(&map.0, Sense::Minimize, expression(|m, _| m[0]), &[0.5], &[(1e-9, 1.0)]);
+    (problem.map, problem.start) = (&map, vec![0.5]);
+    problem.constraints.push(margin("m0 >= 0.9", |m, _| m[0] - 0.9));
+    let solution = solved(&problem);
+    assert!(matches!(solution.status, Status::Infeasible | Status::InfeasibleLocally | Status::Stalled));
+    let reached = solution.conflict.iter().flat_map(|conflict| &conflict.members).map(|member| member.parameters[0]);
+    for p in reached.chain([solution.parameters[0]]) {
+        assert!(p >= 1e-3 * 0.2, "{p}");
+    }
+}
+
+#[test]
+fn a_bound_far_away_in_the_parameters_own_size_does_not_limit_it() {
+    let stops =
+        |z: &[Dual], p: &[Dual]| (p[0].v >= 15.0).then(|| (about(z, &[p[0] * 0.01], &[vec![c(0.4)]]), vec![p[0]]));
+    let map = Closed::new(1, 1, 1, stops);
+    let at = |upper: f64| {
+        let mut problem = problem(&map, Sense::Minimize, expression(|m, _| m[0]), &[20.0], &[(1.0, upper)]);
+        problem.start = vec![0.2];
+        solved(&problem)
+    };
+    let wide = at(1e9);
+    assert_eq!(wide.status, Status::Unconfirmed, "{}", wide.message);
+    assert!(wide.message.contains("the range of `p0` is too wide"), "{}", wide.message);
+    // In a range of its size it is seen that the map stops before the bound.
+    assert_eq!(at(100.0).status, Status::Stalled);
+}
+
+#[test]
+fn the_best_optimum_that_passes_the_long_tests_wins() {
+    // On the higher hill the map has a kink at its gait: differences to both sides do not show it, disturbed maps do.
+    let map = Closed::new(1, 1, 1, |z, p| {
+        let apart = z[0] - p[0];
+        let kink = if p[0].v > 1.5 { 0.2 } else { 0.0 };
+        Some((vec![p[0] + apart * 0.4 + c(kink * apart.v.abs())], vec![z[0]]))
+    });
+    let objective = expression(|m, _| {
+        (-((m[0] - 0.5) * (m[0] - 0.5) * 30.0)).exp() + (-((m[0] - 2.5) * (m[0] - 2.5) * 30.0)).exp() * 2.0
+    });
+    let mut problem = problem(&map, Sense::Maximize, objective, &[0.4], &[(0.3, 2.7)]);
+    problem.start = vec![0.4];
+    problem.settings.starts = 16;
+    let solution = solved(&problem);
+    assert_eq!(solution.status, Status::Optimal, "{}", solution.message);
+    assert_relative_eq!(solution.parameters[0], 0.5, epsilon = 1e-4);
+    assert!(solution.notes.iter().any(|note| note.contains("did not pass the long tests")), "{:?}", solution.notes);
+    assert_eq!(solution.optima[0].objective.to_bits(), solution.objective.to_bits());
+    problem.settings.long_tests = false;
+    assert_relative_eq!(solved(&problem).parameters[0], 2.5, epsilon = 1e-4);
 }

@@ -349,3 +349,21 @@ fn a_kink_at_the_gait_shows_under_disturbances() {
     assert_eq!(solution.status, Status::Unconfirmed);
     assert!(solution.message.contains("disturbed maps differ"), "{}", solution.message);
 }
+
+#[test]
+fn a_map_that_bends_strongly_is_disturbed_less() {
+    let map = Closed::new(1, 1, 1, |z, p| {
+        let apart = z[0] - p[0];
+        Some((vec![p[0] + apart * 0.5 + apart * apart * 2000.0], vec![z[0]]))
+    });
+    let objective = expression(|m, _| (m[0] - 1.0) * (m[0] - 1.0));
+    let mut problem = problem(&map, Sense::Minimize, objective, &[0.9], &[(0.5, 1.5)]);
+    problem.start = vec![0.9];
+    let solution = solved(&problem);
+    assert_eq!(solution.status, Status::Optimal, "{}", solution.message);
+    let Some(Disturbed::Stays { level, nonlinear, .. }) = solution.confirmation.and_then(|found| found.disturbed)
+    else {
+        panic!("not tested under disturbances");
+    };
+    assert!(level < 1e-6 && nonlinear < 1e-2, "{level} {nonlinear}");
+}

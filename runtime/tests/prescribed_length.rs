@@ -106,3 +106,22 @@ fn how_long_a_unit_takes() {
         println!("{relative:e}: {} us, det error {det:e}, {:?}", times[1000], r.statistics);
     }
 }
+
+/// Without sprawl the leg hangs still: what Newton leaves of its angle can be as small as numbers get.
+#[test]
+fn a_gait_at_zero_has_its_measures() {
+    let mut p = parameters(0.0);
+    p[1] = 0.501;
+    for z in [[5e-324, 3.5e-323], [-5e-324, 1e-320], [1e-310, -2e-309], [1e-200, 1e-199], [0.0, 0.0]] {
+        let r = completed(&M_L, &MapRequest { memory: &[0.0], ..request(&z, &p, Sensitivity::Coordinates) });
+        assert!(r.measures.iter().all(|m| m.is_finite()), "{z:?}: {}", r.measures);
+    }
+    for l_b in [0.5, 0.501, 0.52, 0.6, 0.7] {
+        p[1] = l_b;
+        let outcome = find_gait(&M_L, &GaitRequest::new(&p, &[0.0]), &[5.0_f64.to_radians(), 0.0]).unwrap();
+        assert_eq!(outcome.status, GaitStatus::Converged, "{}", outcome.message);
+        let gait = outcome.gait.unwrap();
+        assert!(gait.coordinates.iter().all(|z| *z == 0.0 || z.abs() >= 1e-150), "{:e}", gait.coordinates);
+        assert!(gait.map.measures.iter().all(|m| m.is_finite()), "{l_b}: {}", gait.map.measures);
+    }
+}

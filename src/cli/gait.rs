@@ -49,7 +49,13 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     } else {
         output::print(&report.text());
     }
-    Ok(if outcome.status == GaitStatus::Converged { Outcome::Done } else { Outcome::Without })
+    let answered = outcome.status == GaitStatus::Converged && !outcome.gait.as_ref().is_some_and(unmeasured);
+    Ok(if answered { Outcome::Done } else { Outcome::Without })
+}
+
+/// Whether no measure has a value: the run with measures came to no end. Warnings then say so.
+fn unmeasured(gait: &Gait) -> bool {
+    !gait.map.measures.is_empty() && gait.map.measures.iter().all(|m| m.is_nan())
 }
 
 struct Report<'a> {

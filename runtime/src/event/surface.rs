@@ -5,6 +5,8 @@ use crate::sensitivity::dot;
 
 /// How many units in the last place of its terms a guard's value may be off by rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// What is smaller than this is zero in any unit: its square is lost to underflow, and rates so small have no inverse.
+pub(crate) const NOTHING: f64 = 1e-150;
 
 /// A function whose zeros are events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,5 +126,5 @@ pub(crate) fn read<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: u
         size += (g.dp[i] * env.p[i]).abs();
     }
     let rate = dot(&g.dx, flow) + g.dtau + g.dt;
-    Reading { value: g.value, rate, rounding: ROUNDING * size, clock_only }
+    Reading { value: g.value, rate, rounding: (ROUNDING * size).max(NOTHING), clock_only }
 }

@@ -10,7 +10,7 @@ use super::passing::Place;
 use super::resolution::PLACES;
 use super::run::Run;
 use super::segment::Segment;
-use crate::event::root;
+use crate::event::{NOTHING, root};
 use crate::integrate::{Bare, Carried, Frame, Held, Method, Point, StateStep, StepOf, state_step};
 use crate::model::Model;
 use crate::sensitivity::dot;
@@ -118,7 +118,7 @@ pub(crate) fn slope<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
             rate += g.dk[i] * at.bend[i];
         }
     }
-    Slope { value: g.value, rate, rounding: 64.0 * f64::EPSILON * size }
+    Slope { value: g.value, rate, rounding: (64.0 * f64::EPSILON * size).max(NOTHING) }
 }
 
 /// What is largest: `sense` times an observable.

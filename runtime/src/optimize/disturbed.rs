@@ -16,6 +16,10 @@ use nalgebra::{DMatrix, DVector};
 const MAPS: usize = 1000;
 /// Largest predicted standard deviation of a coordinate relative to its size: small enough for the linearisation.
 const SMALL: f64 = 1e-5;
+/// Where the linear prediction fails, the disturbance is made so much smaller, as often as this: what is due to the map's
+/// curvature then falls with it, a wrong Jacobian stays as wrong.
+const SMALLER: f64 = 1.0 / 30.0;
+const REDUCTIONS: i32 = 2;
 /// Standard deviations of the sampling error that are allowed: one sound gait in two million is refused.
 const ALLOWED: f64 = 5.0;
 /// What a map may differ from the linear prediction by, relative to the deviations' predicted size ...
@@ -69,9 +73,13 @@ pub(super) fn disturbed(problem: &Problem<'_>, linear: &Linear<'_>) -> Result<Di
     match stationary(linear.jacobian, &unit) {
         Some(covariance) if linear.spectral_radius < 1.0 => {
             // The disturbance that makes the deviations no larger than wanted.
-            let level = SMALL / covariance.diagonal().amax().sqrt().max(1.0);
-            let mut stepper = linear.stepper(problem, level)?;
-            stays(linear, &covariance, level, (&mut stepper, problem.settings.seed))
+            let largest = SMALL / covariance.diagonal().amax().sqrt().max(1.0);
+            let at = |reductions: i32| {
+                let level = largest * SMALLER.powi(reductions);
+                let mut stepper = linear.stepper(problem, level)?;
+                stays(linear, &covariance, level, (&mut stepper, problem.settings.seed))
+            };
+            (1..=REDUCTIONS).fold(at(0), |found, reductions| found.or_else(|_| at(reductions)))
         }
         _ => grows(linear, &mut linear.stepper(problem, FIRST)?),
     }

@@ -68,6 +68,16 @@ fn optimal(problem: &Problem<'_>, solution: &Solution) -> String {
     }
 }
 
+/// The message where a parameter is limited by a bound in units of its range, but not in its own size; values in SI units.
+pub(super) fn range_too_wide(problem: &Problem<'_>, parameter: usize, value: f64, bound: f64) -> String {
+    let name = problem.map.info().parameters.get(parameter).map_or("?", |q| q.name);
+    let (least, most) = (0.01 * value.abs(), 100.0 * value.abs());
+    format!(
+        "the range of `{name}` is too wide to tell {value:.6} from its bound {bound:.6} (SI units); narrow it to the powers of \
+         ten that matter, such as {least:.3e} to {most:.3e} in magnitude"
+    )
+}
+
 /// What limits an optimum: active bounds and constraints, and what the gaits themselves do there.
 fn limits(problem: &Problem<'_>, solution: &Solution) -> Vec<String> {
     let info = problem.map.info();
@@ -188,6 +198,12 @@ pub(super) fn violations(program: &Program<'_>, point: &Point) -> String {
     }
     let parts: Vec<String> = worst.into_iter().map(|(name, by)| format!("{name} (by {by:.1e} of its scale)")).collect();
     parts.join(", ")
+}
+
+/// The note where ends of other starts were better, or equal, but did not pass the long tests.
+pub(super) fn refuted(count: usize) -> String {
+    let ends = if count == 1 { "end of another start".to_owned() } else { format!("{count} ends of other starts") };
+    format!("the {ends} came before this one, but did not pass the long tests of the confirmation")
 }
 
 /// The note where multipliers meet.

@@ -174,6 +174,8 @@ fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: 
         let order = if interrupted { attempt::order_so_far } else { attempt::order };
         order(problem, &a.verdict, &b.verdict).then(i.cmp(k))
     });
+    // The long tests are for an answer, not for what an interruption leaves.
+    let refuted = if problem.settings.long_tests && !interrupted { refuted(problem, &mut attempts) } else { 0 };
     let optima = optima::distinct(problem, attempts.iter().map(|(_, attempt)| &attempt.verdict));
     let converged = optima.iter().map(|optimum| optimum.starts).sum();
     let mut attempts = attempts.into_iter();
@@ -182,9 +184,10 @@ fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: 
         return verdict::no_gait(problem, problem.parameters.clone(), &NoGait::Interrupted).solution;
     };
     let met = attempt::met(&verdict);
-    // The long tests are for an answer, not for what an interruption leaves.
-    let tested = problem.settings.long_tests && !interrupted;
-    let mut solution = if tested { verdict::tested(problem, verdict) } else { verdict.solution };
+    let mut solution = verdict.solution;
+    if solution.status == Status::Optimal && refuted > 0 {
+        solution.notes.push(message::refuted(refuted));
+    }
     if interrupted {
         if solution.status != Status::Interrupted {
             let detail = if met { "" } else { "it is the one shown here" };
@@ -209,6 +212,21 @@ fn chosen(problem: &Problem<'_>, mut attempts: Vec<(usize, Attempt)>, conflict: 
     solution.optima = optima;
     solution.starts = Starts { run, converged };
     solution
+}
+
+/// Puts optima to the long tests, best first, until one passes, which then comes first. How many did not pass.
+fn refuted(problem: &Problem<'_>, attempts: &mut [(usize, Attempt)]) -> usize {
+    let optimal = |attempt: &Attempt| attempt.verdict.solution.status == Status::Optimal;
+    let mut refuted = 0;
+    for (_, attempt) in attempts.iter_mut().filter(|(_, attempt)| optimal(attempt)) {
+        if verdict::tested(problem, &mut attempt.verdict) {
+            break;
+        }
+        refuted += 1;
+    }
+    // Stable: what is of the same status stays in its order.
+    attempts.sort_by_key(|(_, attempt)| !optimal(attempt));
+    refuted
 }
 
 fn start_notes(problem: &Problem<'_>, moved: &[usize], elsewhere: bool) -> Vec<String> {

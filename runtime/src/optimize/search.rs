@@ -71,6 +71,8 @@ pub(super) struct Ended {
 
 struct Search<'p, 'a> {
     program: &'p Program<'a>,
+    /// Where it began.
+    began: Point,
     point: Point,
     lin: Linearisation,
     model: QuasiNewton,
@@ -102,6 +104,7 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
     let settings = &program.problem.settings;
     let mut search = Search {
         program,
+        began: start.clone(),
         point: start,
         lin,
         model: QuasiNewton::new(program.len()),
@@ -131,6 +134,12 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
             Progress::Ended(end) => break end,
         }
     };
+    let answer = matches!(end, End::Converged | End::Acceptable | End::Reached | End::Interrupted);
+    if !answer && search.degenerate() {
+        // What was given up on the way to a step of no length is no gait to report.
+        search.lin = program.linearise_to(&search.began, true)?;
+        search.point = search.began.clone();
+    }
     if search.lin.rough {
         // The multipliers of the periodicity belong to the derivatives.
         search.refine_derivatives().map_err(Failure::Wrong)?;

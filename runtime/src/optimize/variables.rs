@@ -2,6 +2,7 @@
 //! nominal size) and, when the spectral radius or the worst of several scenes is the objective, its epigraph variable.
 
 use super::problem::Vary;
+use crate::event::NOTHING;
 use crate::return_map::MapResult;
 use nalgebra::DMatrix;
 
@@ -126,7 +127,7 @@ pub(super) fn nominal_sizes(map: &MapResult, section: &[f64], variables: &Variab
     (0..d)
         .map(|i| {
             let size = section[i].abs().max(shift(i).min(10.0 * section[i].abs().max(1.0)));
-            if size > 0.0 && size.is_finite() { size } else { 1.0 }
+            if size > NOTHING && size.is_finite() { size } else { 1.0 }
         })
         .collect()
 }

@@ -18,6 +18,14 @@ use nalgebra::{Complex, DVector};
 /// polynomial's discriminant, so this is where the discriminant is down to 1e-6 of its scale.
 const MEETING: f64 = 1e-3;
 
+/// A parameter is at a bound within this part of its own size, ...
+const AT_BOUND: f64 = 1e-6;
+/// ... and at a bound of 0 also within this part of its range.
+const ROUNDING_OF_RANGE: f64 = 1e-12;
+/// Within this part of the range of a bound, and beyond that part of its own size from it, a parameter is not resolved.
+const NEXT_TO: f64 = 1e-6;
+const FAR: f64 = 1e-2;
+
 /// A verdict and how good it is: lower is better.
 pub(super) struct Verdict {
     pub(super) solution: Solution,
@@ -122,7 +130,10 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     if solution.status == Status::Optimal && saddle(solution.curvature.as_ref()) {
         solution.status = Status::Saddle;
     }
-    if solution.status == Status::Optimal {
+    let apart = bound_apart(problem, solution);
+    if solution.status == Status::Optimal && apart.is_some() {
+        solution.status = Status::Unconfirmed;
+    } else if solution.status == Status::Optimal {
         match confirmed(program, ended, solution) {
             Ok(confirmation) => solution.confirmation = Some(confirmation),
             Err(reason) => {
@@ -141,19 +152,45 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         solution.notes.push(message::kink(kink));
     }
     solution.notes.extend(ended.point.map.warnings.iter().map(|warning| message::warning(problem, warning)));
-    solution.message = message::message(problem, solution, &detail);
+    solution.message = match apart {
+        Some((parameter, bound)) if solution.status == Status::Unconfirmed => {
+            message::range_too_wide(problem, parameter, solution.parameters[parameter], bound)
+        }
+        _ => message::message(problem, solution, &detail),
+    };
 }
 
-/// The solution of a verdict; of an optimum, after the long tests, which only the best of all starts has to pass.
-pub(super) fn tested(problem: &Problem<'_>, verdict: Verdict) -> Solution {
-    let Verdict { mut solution, nominal, .. } = verdict;
-    if solution.status == Status::Optimal
-        && let Err(reason) = confirm::at_length(problem, &mut solution, &nominal)
-    {
-        solution.status = Status::Unconfirmed;
-        solution.message = message::message(problem, &solution, &reason);
+/// A varied parameter that is next to a bound in units of its range, but not in its own size, and the bound: in a range of
+/// many powers of ten all that is near its small end counts as at the bound, and all gradients vanish there.
+fn bound_apart(problem: &Problem<'_>, solution: &Solution) -> Option<(usize, f64)> {
+    let claimed = |kind: ActiveKind| solution.active.iter().any(|active| active.kind == kind);
+    let sides = problem.vary.iter().filter(|vary| vary.lower < vary.upper).flat_map(|vary| {
+        let p = vary.parameter;
+        [(vary, vary.lower, ActiveKind::LowerBound(p)), (vary, vary.upper, ActiveKind::UpperBound(p))]
+    });
+    sides.into_iter().find_map(|(vary, bound, kind)| {
+        let (p, range) = (vary.parameter, vary.upper - vary.lower);
+        let first = problem.parameters[p].clamp(vary.lower, vary.upper);
+        // Next to a bound of 0 a value says nothing of what is small for the parameter, but the first value does.
+        let size = solution.parameters[p].abs().max(bound.abs()).max(first.abs());
+        let rounding = if bound == 0.0 { ROUNDING_OF_RANGE * range } else { 0.0 };
+        let apart = (solution.parameters[p] - bound).abs();
+        let wide = if claimed(kind) { apart > AT_BOUND * size } else { apart <= NEXT_TO * range && apart > FAR * size };
+        (wide && apart > rounding).then_some((p, bound))
+    })
+}
+
+/// Puts an optimum to the long tests, which only the best of all starts has to pass. Whether it passes; else the verdict says so.
+pub(super) fn tested(problem: &Problem<'_>, verdict: &mut Verdict) -> bool {
+    let Verdict { solution, nominal, .. } = verdict;
+    match confirm::at_length(problem, solution, nominal) {
+        Ok(()) => true,
+        Err(reason) => {
+            solution.status = Status::Unconfirmed;
+            solution.message = message::message(problem, solution, &reason);
+            false
+        }
     }
-    solution
 }
 
 fn saddle(curvature: Option<&Curvature>) -> bool {

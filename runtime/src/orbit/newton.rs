@@ -5,6 +5,7 @@
 //! itself serve as new starts.
 
 use super::multipliers::{multipliers, spectral_radius};
+use crate::event::NOTHING;
 use crate::model::ModelInfo;
 use crate::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Open, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
@@ -228,7 +229,7 @@ impl Search<'_> {
     fn line_search(&self, point: &Point, step: &DVector<f64>) -> Result<Option<Point>, RequestError> {
         let mut length = 1.0;
         for _ in 0..HALVINGS {
-            let trial = &point.z + step * length;
+            let trial = (&point.z + step * length).map(without_underflow);
             if trial.iter().all(|v| v.is_finite())
                 && let Ok(better) = self.evaluate(trial.as_slice())?
                 && better.residual < point.residual * (1.0 - 0.1 * length)
@@ -315,6 +316,12 @@ fn collapsed(point: Point, iterations: usize) -> GaitOutcome {
         stop.time
     );
     GaitOutcome { status: GaitStatus::Stopped(stop), message, gait: None, residual: point.residual, iterations }
+}
+
+/// A coordinate, or 0 where it is so small that products of two such numbers underflow: Newton's method halves its way to a gait
+/// at 0 down to the smallest number there is, and the motion from there has no derivatives.
+fn without_underflow(z: f64) -> f64 {
+    if z.abs() < NOTHING { 0.0 } else { z }
 }
 
 fn residual(z: &DVector<f64>, image: &DVector<f64>) -> f64 {

@@ -14,6 +14,9 @@ const GOOD: f64 = 0.75;
 const SPOILT: f64 = 0.1;
 /// A gait whose step takes so many times longer, or shorter, is not the one that is followed.
 const OTHER_GAIT: f64 = 2.5;
+/// A step that is so many times shorter or longer than that of the gait where the search began is no step of that machine any
+/// more: where steps shrink to no length every map returns to its start.
+const ANOTHER_KIND: f64 = 1e3;
 /// Most steps back to periodicity after a trial.
 const RESTORATIONS: usize = 3;
 const LARGEST_RADIUS: f64 = 4.0;
@@ -84,11 +87,17 @@ impl Search<'_, '_> {
         match self.program.evaluate(u) {
             Ok(point) => {
                 let (before, after) = (self.point.map.duration, point.map.duration);
-                Ok((after <= OTHER_GAIT * before && before <= OTHER_GAIT * after).then_some(point))
+                let same = within(OTHER_GAIT, before, after);
+                Ok((same && within(ANOTHER_KIND, self.began.map.duration, after)).then_some(point))
             }
             Err(Failure::Wrong(error)) => Err(error),
             Err(_) => Ok(None),
         }
+    }
+
+    /// Whether the search stands next to where steps count as of no length, or without end: the place says nothing of gaits.
+    pub(super) fn degenerate(&self) -> bool {
+        !within(ANOTHER_KIND / OTHER_GAIT, self.began.map.duration, self.point.map.duration)
     }
 
     /// Reduction of the merit over what was promised; both are allowed the rounding of the maps.
@@ -121,4 +130,9 @@ impl Search<'_, '_> {
         (self.point, self.lin) = (point, lin);
         Ok(true)
     }
+}
+
+/// Whether two positive numbers differ by a factor of no more than `factor`.
+fn within(factor: f64, a: f64, b: f64) -> bool {
+    a <= factor * b && b <= factor * a
 }
