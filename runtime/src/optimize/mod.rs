@@ -122,7 +122,9 @@ fn from_all_starts(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
         attempts.extend(run(problem, &first, asked..ENOUGH)?);
     }
     let mut conflict = None;
-    if no_optimum(&attempts) && !interrupted() {
+    // Where a gait meets all constraints, if only one that is not confirmed to be the best, none is in the way.
+    let met = |a: &Attempt| a.verdict.solution.status == Status::Unconfirmed && attempt::met(&a.verdict);
+    if no_optimum(&attempts) && !interrupted() && !attempts.iter().any(|(_, a)| met(a)) {
         let blocked: Vec<Blocked> = attempts.iter().filter_map(|(_, attempt)| attempt.blocked.clone()).collect();
         match conflict::find(problem, &blocked)? {
             Found::Conflict(found) => conflict = Some(found),

@@ -171,8 +171,10 @@ fn bound_apart(problem: &Problem<'_>, solution: &Solution) -> Option<(usize, f64
     sides.into_iter().find_map(|(vary, bound, kind)| {
         let (p, range) = (vary.parameter, vary.upper - vary.lower);
         let first = problem.parameters[p].clamp(vary.lower, vary.upper);
-        // Next to a bound of 0 a value says nothing of what is small for the parameter, but the first value does.
-        let size = solution.parameters[p].abs().max(bound.abs()).max(first.abs());
+        // Next to a bound of 0 a value says nothing of what is small for the parameter, but the first value does; where that
+        // is 0, too, only the range is left.
+        let known = bound.abs().max(first.abs());
+        let size = if known > 0.0 { known.max(solution.parameters[p].abs()) } else { range };
         let rounding = if bound == 0.0 { ROUNDING_OF_RANGE * range } else { 0.0 };
         let apart = (solution.parameters[p] - bound).abs();
         let wide = if claimed(kind) { apart > AT_BOUND * size } else { apart <= NEXT_TO * range && apart > FAR * size };
