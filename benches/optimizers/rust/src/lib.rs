@@ -137,7 +137,8 @@ fn posed(
         return Err(wrong(format!("`{}` has no problem", loaded.spec.name)));
     };
     let accuracy = Accuracy { relative: accuracy, absolute: 0.1 * accuracy, ..Accuracy::default() };
-    let settings = Settings { accuracy, ..Settings::default() };
+    // Like for like: the long tests are of an answer that is given to people, and no other code has them.
+    let settings = Settings { accuracy, long_tests: false, ..Settings::default() };
     Ok(assemble(loaded, &loaded.spec, problem, Start { parameters, section, settings }))
 }
 
