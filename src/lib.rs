@@ -7,4 +7,6 @@ pub mod load;
 pub mod models;
 pub mod picture;
 pub mod problem;
+pub mod provenance;
+pub mod table;
 pub mod verify;
