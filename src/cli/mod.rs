@@ -12,6 +12,7 @@ mod models;
 mod new;
 mod optimize;
 mod output;
+mod plots;
 mod schema;
 mod show;
 mod verify;

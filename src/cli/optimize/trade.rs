@@ -5,7 +5,7 @@ mod report;
 
 use super::{Outcome, request};
 use crate::cli::args::OptimizeArgs;
-use crate::cli::{InputError, output};
+use crate::cli::{InputError, output, plots};
 use crate::files;
 use crate::load::Loaded;
 use crate::problem::{Start, assemble};
@@ -65,10 +65,12 @@ pub(super) fn run(
     }
     if let TradeOutcome::Curve(curve) = &outcome {
         if let Some(path) = &args.csv {
-            save(path, "--csv", report.csv(curve));
+            save(path, report.csv(curve));
         }
         if let Some(path) = &args.plot {
-            save(path, "--plot", report.picture(curve).svg().map(String::into_bytes));
+            let flags = [("trade", text.into()), ("points", (args.points as i64).into())];
+            let provenance = plots::provenance(loaded, "optimize", &asked.start.parameters, flags);
+            plots::save("--plot", path, &report.picture(curve), &provenance);
         }
     }
     Ok(match outcome {
@@ -86,30 +88,25 @@ fn places(args: &OptimizeArgs) -> Result<(), InputError> {
     if args.csv.is_some() && args.csv == args.plot {
         return Err(InputError("--csv and --plot name the same file\n  help: name two".to_owned()));
     }
-    if let Some(path) = &args.plot
-        && let Some(kind) = path.extension().filter(|kind| !kind.eq_ignore_ascii_case("svg"))
-    {
-        let (path, kind) = (path.display(), kind.display());
-        return Err(InputError(format!("--plot {path}: pictures are SVG, not {kind}\n  help: end the name in `.svg`")));
+    if let Some(path) = &args.plot {
+        plots::check("--plot", path)?;
     }
-    for (flag, path) in [("--csv", &args.csv), ("--plot", &args.plot)] {
-        if let Some(path) = path {
-            files::try_place(path).map_err(|error| InputError(not_written(flag, path, &error)))?;
-        }
+    if let Some(path) = &args.csv {
+        files::try_place(path).map_err(|error| InputError(not_written(path, &error)))?;
     }
     Ok(())
 }
 
 /// Writes a file; what was printed stands even if that fails.
-fn save(path: &Path, flag: &str, contents: Result<Vec<u8>, Box<dyn std::error::Error>>) {
+fn save(path: &Path, contents: Result<Vec<u8>, Box<dyn std::error::Error>>) {
     let written = contents.and_then(|contents| Ok(files::write(path, &contents)?));
     if let Err(error) = written {
-        output::lose(&not_written(flag, path, &error));
+        output::lose(&not_written(path, &error));
     }
 }
 
-fn not_written(flag: &str, path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{flag} {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
+fn not_written(path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("--csv {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
 }
 
 impl<'l> Trade<'l> {
