@@ -11,9 +11,11 @@
 pub mod canonical;
 pub mod eval;
 pub mod graph;
+mod observation;
 
 use crate::dimension::Dimension;
 pub use graph::{Binary, Graph, Node, NodeId, Symbol, Unary};
+pub use observation::{Observation, Observer, Point};
 
 /// A whole model. Indices in [`Symbol`]s point into the vectors of this struct.
 #[derive(Clone, Debug)]
