@@ -10,8 +10,10 @@ pub(super) struct Axis {
     pub(super) high: f64,
     /// Places and labels.
     pub(super) ticks: Vec<(f64, String)>,
-    /// What a label is to be multiplied by and added to, to give the value: empty where it is the value.
-    pub(super) factor: String,
+    /// Labels are to be multiplied by 10 to this power ...
+    pub(super) exponent: i32,
+    /// ... and added to this.
+    pub(super) offset: f64,
 }
 
 /// Whether a value has a place on an axis.
@@ -42,23 +44,27 @@ pub(super) fn aired(extent: Option<(f64, f64)>, air: f64) -> (f64, f64) {
 impl Axis {
     /// From end to end, with about as many ticks as are wished for.
     pub(super) fn new((low, high): (f64, f64), wished: usize) -> Self {
-        let step = step((high - low) / wished.max(2) as f64);
-        let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
-        let places: Vec<f64> =
-            (0..=(last - first).clamp(0.0, 100.0) as usize).map(|i| (first + i as f64) * step).collect();
+        let (mut wished, mut step) = (wished.max(2), 0.0);
+        let mut places: Vec<f64> = Vec::new();
+        // A scale cannot be read off a single tick.
+        while places.len() < 2 && wished < 20 {
+            step = round_step((high - low) / wished as f64);
+            let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+            places = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|i| (first + i as f64) * step).collect();
+            wished += 1;
+        }
         let size = low.abs().max(high.abs());
         // Where labels would differ in their seventh digit only, they say the difference from the first.
         let offset = if high - low < 1e-5 * size { places.first().copied().unwrap_or(0.0) } else { 0.0 };
-        let largest = places.iter().map(|place| (place - offset).abs()).fold(0.0, f64::max);
-        let exponent = exponent(largest);
+        let exponent = exponent(places.iter().map(|place| (place - offset).abs()).fold(0.0, f64::max));
         let unit = 10f64.powi(exponent);
         let ticks = places.iter().map(|&place| (place, decimal((place - offset) / unit, step / unit))).collect();
-        let mut factor =
-            if exponent == 0 { String::new() } else { format!("×10^{}", exponent.to_string().replace('-', "−")) };
-        if offset != 0.0 {
-            factor += &format!("{}{offset}", if offset < 0.0 { " " } else { " +" });
-        }
-        Self { low, high, ticks, factor }
+        Self { low, high, ticks, exponent, offset }
+    }
+
+    /// Whether labels are not the values themselves, which the picture then has to say.
+    pub(super) fn is_scaled(&self) -> bool {
+        self.exponent != 0 || self.offset != 0.0
     }
 
     /// Where a value is: 0 at the lower end, 1 at the upper.
@@ -77,11 +83,10 @@ fn exponent(largest: f64) -> i32 {
 }
 
 /// The smallest of 1, 2, 5 times a power of ten that is no less.
-fn step(at_least: f64) -> f64 {
+fn round_step(at_least: f64) -> f64 {
     let power = 10f64.powf(at_least.log10().floor());
     let digit = at_least / power;
     let of = [1.0, 2.0, 5.0].into_iter().find(|&d| digit <= d * (1.0 + 1e-9)).unwrap_or(10.0);
-    // 10 to a negative power is rounded; dividing by the positive one is exact for more of them.
     of * power
 }
 

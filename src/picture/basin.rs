@@ -1,6 +1,6 @@
 //! Cells of a grid coloured by class, with a legend: which starts lead where.
 
-use super::axis::{aired, extent};
+use super::axis::{aired, drawable, extent};
 use super::canvas::{Canvas, Ink};
 use super::frame::{self, Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, Sample, Sides};
 use super::{Mark, Picture, palette};
@@ -37,17 +37,18 @@ impl Picture for Basin {
         let (left, right) = (frame::left_of([&y]), canvas.width - MARGIN - 10.0);
         let entries = self.legend();
         frame::legend(&mut canvas, (left, top), right - left, &entries);
-        let top = top + frame::legend_height(&entries, right - left) + if y.factor.is_empty() { 4.0 } else { 18.0 };
+        let top = top + frame::legend_height(&entries, right - left) + if y.is_scaled() { 18.0 } else { 4.0 };
         let sides = Sides { left, right, top, bottom: top + 480.0 };
         canvas.height = sides.bottom + NUMBERS_BELOW + LABEL_BELOW + MARGIN;
-        let frame = Frame { sides, x: frame::horizontal(range(self.x_range), right - left), y };
+        let frame = Frame { sides, x: frame::horizontal(range(self.x_range), right - left), y, indent: left };
         frame.grid(&mut canvas);
         self.fill(&mut canvas, &frame);
         frame.below(&mut canvas, &self.x);
         frame.beside(&mut canvas, &self.y);
-        for mark in self.marks.iter().filter(|m| m.at.0.is_finite() && m.at.1.is_finite()) {
+        let marks: Vec<_> = self.marks.iter().map(|m| frame.at(m.at)).collect();
+        for mark in self.marks.iter().filter(|m| drawable(m.at.0) && drawable(m.at.1)) {
             palette::marker(&mut canvas, frame.at(mark.at), 3, 6.0, Ink::Text);
-            frame.note(&mut canvas, frame.at(mark.at), &mark.label);
+            frame.note(&mut canvas, frame.at(mark.at), &mark.label, &marks);
         }
         if self.cells.is_empty() || self.columns == 0 {
             frame.nothing(&mut canvas);

@@ -1,7 +1,7 @@
 //! Bifurcation diagrams: branches over a parameter with stable and unstable pieces.
 
 use super::axis::{aired, drawable, extent};
-use super::canvas::{Canvas, Stroke};
+use super::canvas::{Canvas, Ink, Stroke};
 use super::frame::{self, Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, Sample, Sides};
 use super::{Mark, Picture, palette};
 
@@ -69,7 +69,7 @@ impl Branches {
         if stable { Stroke { ink, width: 2.4, dash: &[] } } else { Stroke { ink, width: 1.5, dash: UNSTABLE } }
     }
 
-    fn mark_ink(&self, kind: usize) -> super::canvas::Ink {
+    fn mark_ink(&self, kind: usize) -> Ink {
         palette::curve(self.branches.len() + kind).ink
     }
 
@@ -78,7 +78,7 @@ impl Branches {
         let mut all: Vec<_> = several.map(|(i, b)| (b.name.clone(), Sample::Line(Self::stroke(i, true)))).collect();
         let dashed = self.branches.iter().any(|b| b.pieces().iter().any(|(_, stable)| !stable));
         if dashed {
-            let stroke = Stroke { ink: super::canvas::Ink::Muted, ..Self::stroke(0, false) };
+            let stroke = Stroke { ink: Ink::Muted, ..Self::stroke(0, false) };
             all.push(("unstable".to_owned(), Sample::Line(stroke)));
         }
         let labels = self.labels().into_iter().enumerate();
@@ -104,9 +104,9 @@ impl Picture for Branches {
         let (left, right) = (frame::left_of([&y]), canvas.width - MARGIN - 10.0);
         let entries = self.legend();
         frame::legend(&mut canvas, (left, top), right - left, &entries);
-        let top = top + frame::legend_height(&entries, right - left) + if y.factor.is_empty() { 0.0 } else { 16.0 };
+        let top = top + frame::legend_height(&entries, right - left) + if y.is_scaled() { 16.0 } else { 0.0 };
         let x = frame::horizontal(aired(extent(all().map(|p| p.0)), 0.02), right - left);
-        let frame = Frame { sides: Sides { left, right, top, bottom }, x, y };
+        let frame = Frame { sides: Sides { left, right, top, bottom }, x, y, indent: left };
         frame.grid(&mut canvas);
         frame.below(&mut canvas, &self.x);
         frame.beside(&mut canvas, &self.y);

@@ -1,9 +1,9 @@
 //! Multipliers in the complex plane, with the unit circle: inside is stable.
 
 use super::axis::{drawable, extent};
-use super::canvas::{Canvas, Ink, Stroke};
+use super::canvas::{Anchor, Canvas, Ink, Stroke};
 use super::frame::{self, Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, SMALL, Sample, Sides};
-use super::{Picture, font, palette};
+use super::{Picture, palette};
 
 /// Multipliers and the unit circle.
 #[derive(Clone, Debug, Default)]
@@ -50,10 +50,10 @@ impl Picture for Circle {
         let top = frame::heading(&mut canvas, &self.title);
         let (entries, width) = (self.legend(), SIZE);
         frame::legend(&mut canvas, (left, top), width, &entries);
-        let top = top + frame::legend_height(&entries, width) + if y.factor.is_empty() { 0.0 } else { 16.0 };
+        let top = top + frame::legend_height(&entries, width) + if y.is_scaled() { 16.0 } else { 0.0 };
         let sides = Sides { left, right: left + SIZE, top, bottom: top + SIZE };
         canvas.height = sides.bottom + NUMBERS_BELOW + LABEL_BELOW + MARGIN;
-        let frame = Frame { sides, x: frame::horizontal((-end, end), SIZE), y };
+        let frame = Frame { sides, x: frame::horizontal((-end, end), SIZE), y, indent: left };
         frame.grid(&mut canvas);
         frame.below(&mut canvas, "real part");
         frame.beside(&mut canvas, "imaginary part");
@@ -66,9 +66,8 @@ impl Picture for Circle {
         }
         if self.values().next().is_none() {
             let text = "no multipliers";
-            canvas.label(frame.at((0.0, 0.0)), text, SMALL, super::canvas::Anchor::Middle, Ink::Muted);
+            canvas.label(frame.at((0.0, 0.0)), text, SMALL, Anchor::Middle, Ink::Muted);
         }
-        let _ = font::width;
         canvas
     }
 }

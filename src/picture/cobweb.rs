@@ -82,14 +82,14 @@ impl Picture for Cobweb {
         let entries = self.legend();
         let width = canvas.width - lefts[0] - MARGIN;
         frame::legend(&mut canvas, (lefts[0], top), width, &entries);
-        let factor = if axes.iter().any(|axis| !axis.factor.is_empty()) { 14.0 } else { 0.0 };
+        let factor = if axes.iter().any(|axis| axis.is_scaled()) { 14.0 } else { 0.0 };
         let top = top + frame::legend_height(&entries, width) + factor;
         let mut left = 0.0;
         for ((map, y), indent) in maps.iter().zip(axes).zip(lefts) {
             left += indent;
             let sides = Sides { left, right: left + SIZE, top, bottom: top + SIZE };
             let x = frame::horizontal(map.ends(), SIZE);
-            map.draw(&mut canvas, &Frame { sides, x, y });
+            map.draw(&mut canvas, &Frame { sides, x, y, indent });
             left += SIZE + 10.0;
         }
         canvas.height = top + SIZE + NUMBERS_BELOW + LABEL_BELOW + MARGIN;
@@ -103,7 +103,7 @@ impl Cobweb {
         let all = [
             (has(|m| !m.curve.is_empty()), "return map", Sample::Line(palette::curve(0))),
             (has(|m| m.iterates.len() > 1), "orbit", Sample::Line(ORBIT)),
-            (true, "next value equal", Sample::Line(DIAGONAL)),
+            (true, "next value = value", Sample::Line(DIAGONAL)),
             (has(|m| !m.fixed.is_empty()), "gait", Sample::Marker(3, Ink::Hue(2))),
         ];
         all.into_iter().filter(|(shown, ..)| *shown).map(|(_, name, sample)| (name.to_owned(), sample)).collect()

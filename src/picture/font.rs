@@ -33,3 +33,14 @@ pub(super) fn fitted(text: &str, size: f64, most: f64) -> String {
     }
     short.trim_end().to_owned() + "…"
 }
+
+/// A label with a unit in brackets that is no wider than that: the name gives way, not the unit.
+pub(super) fn fitted_label(label: &str, size: f64, most: f64) -> String {
+    match label.rfind(" [") {
+        Some(at) if width(label, size) > most => {
+            let (name, unit) = label.split_at(at);
+            fitted(name, size, (most - width(unit, size)).max(0.0)) + unit
+        }
+        _ => fitted(label, size, most),
+    }
+}

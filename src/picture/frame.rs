@@ -37,6 +37,8 @@ pub(super) struct Frame {
     pub(super) sides: Sides,
     pub(super) x: Axis,
     pub(super) y: Axis,
+    /// Room to the left of the frame.
+    pub(super) indent: f64,
 }
 
 /// Axis of a horizontal side: as many ticks as their labels leave room for.
@@ -101,26 +103,25 @@ impl Frame {
             canvas.line(vec![(x, bottom), (x, bottom + 5.0)], palette::thin(Ink::Muted, &[]));
             canvas.text((x, bottom + 6.0 + SMALL), number, SMALL, Anchor::Middle, Ink::Text);
         }
-        let factor = font::width(&self.x.factor, SMALL);
+        let scaled = factor_width(&self.x);
         let baseline = bottom + NUMBERS_BELOW + TEXT + 2.0;
-        let label = font::fitted(label, TEXT, right - left - 2.0 * factor);
+        let label = font::fitted_label(label, TEXT, right - left - 2.0 * scaled);
         canvas.text((0.5 * (left + right), baseline), &label, TEXT, Anchor::Middle, Ink::Text);
-        canvas.text((right, baseline), &self.x.factor, SMALL, Anchor::End, Ink::Text);
+        factor(canvas, &self.x, (right - scaled, baseline));
     }
 
     /// Ticks, numbers and label of the vertical axis.
     pub(super) fn beside(&self, canvas: &mut Canvas, label: &str) {
         let Sides { left, top, bottom, .. } = self.sides;
-        let mut widest: f64 = 0.0;
         for (place, number) in &self.y.ticks {
             let y = self.at((self.x.low, *place)).1;
             canvas.line(vec![(left - 5.0, y), (left, y)], palette::thin(Ink::Muted, &[]));
             canvas.text((left - 8.0, y + 0.36 * SMALL), number, SMALL, Anchor::End, Ink::Text);
-            widest = widest.max(font::width(number, SMALL));
         }
-        let label = font::fitted(label, TEXT, bottom - top + 16.0);
-        canvas.upwards((left - 8.0 - widest - 0.75 * TEXT, 0.5 * (top + bottom)), &label, TEXT, Ink::Text);
-        canvas.text((left, top - 5.0), &self.y.factor, SMALL, Anchor::Start, Ink::Text);
+        let label = font::fitted_label(label, TEXT, bottom - top + 16.0);
+        let baseline = left - self.indent + MARGIN + 0.9 * TEXT;
+        canvas.upwards((baseline, 0.5 * (top + bottom)), &label, TEXT, Ink::Text);
+        factor(canvas, &self.y, (left, top - 5.0));
     }
 
     /// A curve through those of the points that can be drawn: where one cannot, the curve has a gap.
@@ -140,27 +141,66 @@ impl Frame {
         canvas.label((x, y), "nothing to draw", TEXT, Anchor::Middle, Ink::Muted);
     }
 
-    /// Text beside a marked place: towards the middle, so that it stays within the frame.
-    pub(super) fn note(&self, canvas: &mut Canvas, at: Place, text: &str) {
-        let ((x, y), middle) = (at, self.middle());
-        let room = if x < middle.0 { self.sides.right - x - 16.0 } else { x - self.sides.left - 16.0 };
-        let text = font::fitted(text, SMALL, room);
-        let baseline = if y < middle.1 { y + 1.7 * SMALL } else { y - 0.9 * SMALL };
-        match x < middle.0 {
-            true => canvas.label((x + 8.0, baseline), &text, SMALL, Anchor::Start, Ink::Text),
-            false => canvas.label((x - 8.0, baseline), &text, SMALL, Anchor::End, Ink::Text),
+    /// Text beside a marked place: where it stays within the frame and covers as few of the places as can be.
+    pub(super) fn note(&self, canvas: &mut Canvas, at: Place, text: &str, others: &[Place]) {
+        let Sides { left, right, top, bottom } = self.sides;
+        let text = font::fitted(text, SMALL, 0.8 * (right - left));
+        let width = font::width(&text, SMALL);
+        let beside = [at.0 + 10.0, at.0 - 10.0 - width, at.0 - 0.5 * width];
+        let rows = [0.36, 1.9, -1.0, 3.2, -2.3, 5.0, -4.1, 8.0, -7.1].into_iter();
+        let heights = rows.map(|rows| at.1 + rows * SMALL);
+        let corners = heights.flat_map(|baseline| beside.into_iter().map(move |x| (x, baseline)));
+        let covers = |&(x, baseline): &Place| {
+            let outside =
+                x < left + 2.0 || x + width > right - 2.0 || baseline > bottom - 4.0 || baseline < top + SMALL;
+            let within = |p: &&Place| {
+                (x - 4.0..x + width + 4.0).contains(&p.0) && (baseline - SMALL - 2.0..baseline + 6.0).contains(&p.1)
+            };
+            others.iter().filter(within).count() + if outside { 1_000_000 } else { 0 }
+        };
+        if let Some(corner) = corners.min_by_key(covers) {
+            canvas.label(corner, &text, SMALL, Anchor::Start, Ink::Text);
         }
     }
 }
 
+/// What the labels of an axis are to be multiplied by and added to: nothing where they are the values.
+fn factor(canvas: &mut Canvas, axis: &Axis, (mut x, baseline): Place) {
+    if axis.exponent != 0 {
+        canvas.text((x, baseline), "×10", SMALL, Anchor::Start, Ink::Text);
+        x += font::width("×10", SMALL) + 1.0;
+        let raised = axis.exponent.to_string().replace('-', "−");
+        canvas.text((x, baseline - 0.4 * SMALL), &raised, 0.75 * SMALL, Anchor::Start, Ink::Text);
+        x += font::width(&raised, 0.75 * SMALL) + 5.0;
+    }
+    canvas.text((x, baseline), &offset(axis), SMALL, Anchor::Start, Ink::Text);
+}
+
+fn offset(axis: &Axis) -> String {
+    match axis.offset {
+        0.0 => String::new(),
+        v if v < 0.0 => format!("− {}", -v),
+        v => format!("+ {v}"),
+    }
+}
+
+/// Room that this takes.
+pub(super) fn factor_width(axis: &Axis) -> f64 {
+    let raised = axis.exponent.to_string();
+    let power = font::width("×10", SMALL) + font::width(&raised, 0.75 * SMALL) + 8.0;
+    font::width(&offset(axis), SMALL) + if axis.exponent == 0 { 0.0 } else { power }
+}
+
 /// The title; returns where the next thing may begin.
 pub(super) fn heading(canvas: &mut Canvas, title: &str) -> f64 {
-    if title.is_empty() {
-        return MARGIN;
-    }
     let text = font::fitted(title, TITLE, canvas.width - 2.0 * MARGIN);
     canvas.text((0.5 * canvas.width, MARGIN + TITLE), &text, TITLE, Anchor::Middle, Ink::Text);
-    MARGIN + TITLE + 10.0
+    heading_height(title)
+}
+
+/// Where the next thing may begin below a title.
+pub(super) fn heading_height(title: &str) -> f64 {
+    if title.is_empty() { MARGIN } else { MARGIN + TITLE + 10.0 }
 }
 
 const LEGEND_ROW: f64 = 20.0;

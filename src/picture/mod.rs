@@ -18,6 +18,7 @@ mod frame;
 mod line;
 mod palette;
 mod path;
+mod png;
 mod series;
 mod svg;
 mod write;

@@ -6,10 +6,15 @@ use super::canvas::{Canvas, Dash, Ink, Place, Stroke};
 pub(super) const HUES: [[u8; 3]; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [240, 228, 66]];
 
-const DASHES: [Dash; 5] = [&[], &[8.0, 3.0], &[2.0, 2.5], &[9.0, 3.0, 2.0, 3.0], &[14.0, 4.0]];
+const DASHES: [Dash; 5] = [&[], &[8.0, 3.0], &[10.0, 3.0, 2.5, 3.0], &[3.5, 2.5], &[16.0, 4.0]];
 
-/// Of reference lines.
-pub(super) const DOTS: Dash = &[1.5, 3.0];
+/// Of reference lines, which have dots.
+const DOTS: [Dash; 3] = [&[1.5, 3.0], &[1.5, 3.0, 7.0, 3.0], &[1.5, 3.0, 1.5, 3.0, 7.0, 3.0]];
+
+/// A reference line, in the colour of a curve.
+pub(super) fn level(index: usize, hue: usize) -> Stroke {
+    Stroke { dash: DOTS[index % DOTS.len()], width: 1.6, ..curve(hue) }
+}
 
 /// What a page shows in light; `Ink::Text` and others are its own choice elsewhere.
 pub(super) fn light(ink: Ink) -> [u8; 3] {

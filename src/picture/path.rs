@@ -1,7 +1,7 @@
 //! Places in the plane, to the same scale in both directions.
 
 use super::axis::{Axis, aired, drawable, extent};
-use super::canvas::{Canvas, Stroke};
+use super::canvas::{Canvas, Ink, Stroke};
 use super::frame::{self, Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, Sample, Sides};
 use super::{Curve, Picture, palette};
 
@@ -42,6 +42,7 @@ pub struct Places {
 
 const LARGEST: (f64, f64) = (720.0, 720.0);
 const SMALLEST: f64 = 160.0;
+const LEGEND_BESIDE: f64 = 220.0;
 
 impl Path {
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
@@ -52,7 +53,7 @@ impl Path {
     }
 
     fn stretch(index: usize) -> Stroke {
-        Stroke { ink: super::canvas::Ink::Muted, width: 1.0, dash: [&[][..], &[4.0, 3.0]][index % 2] }
+        Stroke { ink: Ink::Muted, width: 1.0, dash: [&[][..], &[4.0, 3.0]][index % 2] }
     }
 
     fn legend(&self) -> Vec<(String, Sample)> {
@@ -64,7 +65,7 @@ impl Path {
     }
 
     /// Places have colours that no curve has.
-    fn ink(&self, index: usize) -> super::canvas::Ink {
+    fn ink(&self, index: usize) -> Ink {
         palette::curve(self.curves.len() + index).ink
     }
 }
@@ -74,16 +75,33 @@ impl Picture for Path {
         let mut canvas = Canvas::new(LARGEST.0, 0.0, &self.title);
         let ends = |of: fn((f64, f64)) -> f64| extent(self.points().map(of));
         let fit = fitted(ends(|p| p.0), ends(|p| p.1));
-        let top = frame::heading(&mut canvas, &self.title);
+        let top = frame::heading_height(&self.title);
         let y = Axis::new(fit.y, ((fit.size.1 / 45.0) as usize).clamp(2, 12));
-        let left = frame::left_of([&y]).max(0.5 * (LARGEST.0 - fit.size.0));
+        let indent = frame::left_of([&y]);
         let entries = self.legend();
-        let wide = canvas.width - 2.0 * MARGIN - 60.0;
-        frame::legend(&mut canvas, (MARGIN + 60.0, top), wide, &entries);
-        let top = top + frame::legend_height(&entries, wide) + if y.factor.is_empty() { 0.0 } else { 16.0 };
-        let sides = Sides { left, right: left + fit.size.0, top, bottom: top + fit.size.1 };
+        // Beside a narrow frame there is room for the legend, above it there is none.
+        let narrow = fit.size.0 < 0.6 * LARGEST.0;
+        let names = if narrow { LEGEND_BESIDE } else { fit.size.0 };
+        let above = if narrow { 0.0 } else { frame::legend_height(&entries, names) };
+        let top = top + above + if y.is_scaled() { 18.0 } else { 0.0 };
+        let sides = Sides { left: indent, right: indent + fit.size.0, top, bottom: top + fit.size.1 };
+        canvas.width = sides.right + 2.0 * MARGIN + if narrow && !entries.is_empty() { LEGEND_BESIDE } else { 0.0 };
         canvas.height = sides.bottom + NUMBERS_BELOW + LABEL_BELOW + MARGIN;
-        let frame = Frame { sides, x: frame::horizontal(fit.x, fit.size.0), y };
+        let corner = if narrow { (sides.right + MARGIN, top) } else { (indent, top - above) };
+        frame::heading(&mut canvas, &self.title);
+        if narrow {
+            for (row, entry) in entries.iter().enumerate() {
+                frame::legend(
+                    &mut canvas,
+                    (corner.0, corner.1 + 22.0 * row as f64),
+                    names,
+                    std::slice::from_ref(entry),
+                );
+            }
+        } else {
+            frame::legend(&mut canvas, corner, names, &entries);
+        }
+        let frame = Frame { sides, x: frame::horizontal(fit.x, fit.size.0), y, indent };
         frame.grid(&mut canvas);
         frame.below(&mut canvas, &self.x);
         frame.beside(&mut canvas, &self.y);

@@ -1,9 +1,9 @@
 //! Curves over time (or anything else) in panels above each other that share the horizontal axis.
 
-use super::axis::{aired, extent};
+use super::axis::{Axis, aired, drawable, extent};
 use super::canvas::{Anchor, Canvas, Ink, Stroke};
 use super::frame::{self, Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, SMALL, Sample, Sides};
-use super::{Picture, palette};
+use super::{Picture, font, palette};
 
 /// Stacked panels over one axis.
 #[derive(Clone, Debug, Default)]
@@ -63,10 +63,7 @@ const GAP: f64 = 14.0;
 
 impl Panel {
     fn level(&self, index: usize) -> Stroke {
-        let hue = self.levels[index]
-            .curve
-            .map_or_else(|| palette::curve(self.curves.len() + index).ink, |curve| palette::curve(curve).ink);
-        Stroke { ink: hue, width: 1.5, dash: palette::DOTS }
+        palette::level(index, self.levels[index].curve.unwrap_or(self.curves.len() + index))
     }
 
     fn legend(&self) -> Vec<(String, Sample)> {
@@ -102,18 +99,18 @@ impl Picture for Series {
         let axes: Vec<_> = panels.iter().zip(&heights).map(|(p, &h)| frame::vertical(p.ends(), h)).collect();
         let (left, right) = (frame::left_of(&axes), WIDTH - MARGIN - 10.0);
         let x = frame::horizontal(aired(span, 0.0), right - left);
-        if self.events.iter().any(|e| !e.label.is_empty()) {
-            top += SMALL + 4.0;
-        }
         for (index, ((panel, y), height)) in panels.iter().zip(axes).zip(heights).enumerate() {
             let entries = panel.legend();
-            let factor = if y.factor.is_empty() || !entries.is_empty() { 0.0 } else { 14.0 };
-            let shift = if y.factor.is_empty() { 0.0 } else { 80.0 };
-            let width = right - left - shift;
-            frame::legend(&mut canvas, (left + shift, top), width, &entries);
-            top += frame::legend_height(&entries, width) + factor;
-            let frame = Frame { sides: Sides { left, right, top, bottom: top + height }, x: x.clone(), y };
-            self.panel(&mut canvas, panel, &frame, index == 0);
+            frame::legend(&mut canvas, (left, top), right - left, &entries);
+            top += frame::legend_height(&entries, right - left) + if y.is_scaled() { 18.0 } else { 2.0 };
+            let scaled = if y.is_scaled() { frame::factor_width(&y) + 8.0 } else { 0.0 };
+            if index == 0 && self.events.iter().any(|e| !e.label.is_empty()) {
+                top += if y.is_scaled() { 0.0 } else { SMALL + 5.0 };
+                self.event_labels(&mut canvas, &x, (left + scaled, left, right, top));
+            }
+            let sides = Sides { left, right, top, bottom: top + height };
+            let frame = Frame { sides, x: x.clone(), y, indent: left };
+            self.panel(&mut canvas, panel, &frame);
             if index + 1 == panels.len() {
                 frame.below(&mut canvas, &self.x);
             }
@@ -125,18 +122,15 @@ impl Picture for Series {
 }
 
 impl Series {
-    fn panel(&self, canvas: &mut Canvas, panel: &Panel, frame: &Frame, first: bool) {
+    fn panel(&self, canvas: &mut Canvas, panel: &Panel, frame: &Frame) {
         frame.grid(canvas);
         frame.beside(canvas, &panel.y);
         let Sides { left, right, top, bottom } = frame.sides;
-        let mut taken = f64::NEG_INFINITY;
-        for event in self.events.iter().filter(|e| e.at.is_finite()) {
+        for event in self.events.iter().filter(|e| drawable(e.at)) {
             let x = frame.at((event.at, frame.y.low)).0;
             canvas.line(vec![(x, top), (x, bottom)], palette::thin(Ink::Muted, &[3.0, 3.0]));
-            let _ = first;
-            taken = taken.max(x);
         }
-        for (index, level) in panel.levels.iter().enumerate().filter(|(_, l)| l.value.is_finite()) {
+        for (index, level) in panel.levels.iter().enumerate().filter(|(_, l)| drawable(l.value)) {
             let y = frame.at((frame.x.low, level.value)).1;
             canvas.line(vec![(left, y), (right, y)], panel.level(index));
         }
@@ -146,6 +140,20 @@ impl Series {
         if panel.is_empty() {
             frame.nothing(canvas);
         }
-        let _ = Anchor::Start;
+    }
+
+    /// Labels of events above the uppermost panel: those that would stand on another one are left out.
+    fn event_labels(&self, canvas: &mut Canvas, x: &Axis, (free, left, right, top): (f64, f64, f64, f64)) {
+        let mut free = free;
+        for event in self.events.iter().filter(|e| drawable(e.at) && !e.label.is_empty()) {
+            let text = font::fitted(&event.label, SMALL, 0.5 * (right - left));
+            let width = font::width(&text, SMALL);
+            let middle = left + x.share(event.at) * (right - left);
+            let start = (middle - 0.5 * width).min(right - width);
+            if start >= free {
+                canvas.text((start, top - 5.0), &text, SMALL, Anchor::Start, Ink::Muted);
+                free = start + width + 8.0;
+            }
+        }
     }
 }

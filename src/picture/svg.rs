@@ -75,7 +75,9 @@ impl Pen<'_> {
     fn cell(&mut self, corner: Place, size: Place, ink: Ink) {
         let ink = self.ink(ink);
         let (x, y, w, h) = (number(corner.0), number(corner.1), number(size.0), number(size.1));
-        self.add(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"{ink}\"/>\n"));
+        self.add(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"{ink}\" shape-rendering=\"crispEdges\"/>\n"
+        ));
     }
 
     fn shape(&mut self, shape: &Shape) {

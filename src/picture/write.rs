@@ -1,6 +1,6 @@
 //! Pictures as files: the format by the name, whole or not there.
 
-use super::{Picture, svg};
+use super::{Picture, png, svg};
 use crate::files;
 use crate::provenance::Provenance;
 use std::path::{Path, PathBuf};
@@ -52,9 +52,10 @@ pub fn check_name(path: &Path) -> Result<(), PictureError> {
 /// # Errors
 /// The name says neither, or the file system refuses; what stood there is then untouched.
 pub fn write(picture: &dyn Picture, path: &Path, provenance: &Provenance) -> Result<(), PictureError> {
+    let failed = |source| PictureError::File { path: path.to_owned(), source };
     let bytes = match format(path)? {
         Format::Svg => svg::text(&picture.draw(), svg::Setting::File(provenance)).into_bytes(),
-        Format::Png => return Err(PictureError::Format(path.to_owned())),
+        Format::Png => png::bytes(&picture.draw(), provenance).map_err(failed)?,
     };
-    files::write(path, &bytes).map_err(|source| PictureError::File { path: path.to_owned(), source })
+    files::write(path, &bytes).map_err(failed)
 }
