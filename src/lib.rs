@@ -5,6 +5,7 @@ pub mod cli;
 pub mod files;
 pub mod load;
 pub mod models;
+pub mod motion;
 pub mod picture;
 pub mod problem;
 pub mod provenance;

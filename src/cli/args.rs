@@ -43,6 +43,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Find a periodic gait and its stability
     Gait(GaitArgs),
+    /// Follow the machine from any start, through steps, until it falls
+    Simulate(Box<super::simulate::SimulateArgs>),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
     /// Measure every generated derivative against an independent route

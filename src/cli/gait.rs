@@ -2,11 +2,11 @@
 
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
-use super::{InputError, Outcome, inputs, output, provenance};
+use super::{InputError, Outcome, inputs, output, provenance, stops};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{Method, StopReason, Warning};
+use gaitc_runtime::return_map::{Method, Warning};
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
@@ -72,14 +72,7 @@ impl Report<'_> {
             GaitStatus::Converged => "converged",
             GaitStatus::Open(_) => "not_closed",
             GaitStatus::NotConverged => "not_converged",
-            GaitStatus::Stopped(stop) => match stop.reason {
-                StopReason::NoEvent => "no_event",
-                StopReason::StepLimit => "step_limit",
-                StopReason::StepTooSmall => "step_too_small",
-                StopReason::NotFinite => "not_finite",
-                StopReason::Inconsistent => "inconsistent",
-                StopReason::Zeno => "zeno",
-            },
+            GaitStatus::Stopped(stop) => stops::name(stop.reason),
         }
     }
 

@@ -19,6 +19,8 @@ mod provenance;
 mod run;
 mod schema;
 mod show;
+mod simulate;
+mod stops;
 mod verify;
 
 use args::{Cli, Command};
@@ -115,6 +117,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Show(args) => show::run(cli, args),
         Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
+        Command::Simulate(args) => simulate::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
     }
