@@ -8,5 +8,6 @@ pub mod models;
 pub mod picture;
 pub mod problem;
 pub mod provenance;
+pub mod published;
 pub mod table;
 pub mod verify;

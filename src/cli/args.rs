@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Find a periodic gait and its stability
     Gait(GaitArgs),
+    /// Show what others have published beside what is computed
+    Compare(super::compare::CompareArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
     /// Measure every generated derivative against an independent route

@@ -4,6 +4,7 @@
 
 mod args;
 mod check;
+mod compare;
 mod explain;
 mod gait;
 mod guards;
@@ -88,6 +89,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
+        Command::Compare(args) => compare::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
     }
 }
