@@ -83,8 +83,9 @@ fn text(model: &Loaded, comparison: &Comparison<'_>) -> String {
     let published = comparison.published;
     let doc = if published.doc.is_empty() { String::new() } else { format!(": {}", published.doc) };
     let mut text = format!("{} · {}{doc}\nsource: {}\n", model.spec.name, published.name, published.source);
-    let set: Vec<String> =
-        set(model, comparison).map(|(name, unit, value)| format!("{name} = {}", format_quantity(value, unit))).collect();
+    let set: Vec<String> = set(model, comparison)
+        .map(|(name, unit, value)| format!("{name} = {}", format_quantity(value, unit)))
+        .collect();
     if !set.is_empty() {
         text += &format!("at {}\n", set.join(", "));
     }
@@ -113,7 +114,8 @@ fn percent(deviation: f64) -> String {
 
 fn object(model: &Loaded, comparison: &Comparison<'_>) -> Value {
     let published = comparison.published;
-    let set: Map<String, Value> = set(model, comparison).map(|(name, _, value)| (name.to_owned(), json!(value))).collect();
+    let set: Map<String, Value> =
+        set(model, comparison).map(|(name, _, value)| (name.to_owned(), json!(value))).collect();
     let number = |number: &PublishedNumber| {
         json!({
             "name": name(model, number),
