@@ -9,5 +9,6 @@ pub mod motion;
 pub mod picture;
 pub mod problem;
 pub mod provenance;
+pub mod published;
 pub mod table;
 pub mod verify;

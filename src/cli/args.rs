@@ -45,6 +45,8 @@ pub(crate) enum Command {
     Gait(GaitArgs),
     /// Follow the machine from any start, through steps, until it falls
     Simulate(Box<super::simulate::SimulateArgs>),
+    /// Show what others have published beside what is computed
+    Compare(super::compare::CompareArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
     /// Measure every generated derivative against an independent route

@@ -58,6 +58,16 @@ fn unmeasured(gait: &Gait) -> bool {
     !gait.map.measures.is_empty() && gait.map.measures.iter().all(|m| m.is_nan())
 }
 
+/// What a status is called in results.
+pub(super) fn status(status: &GaitStatus) -> &'static str {
+    match status {
+        GaitStatus::Converged => "converged",
+        GaitStatus::Open(_) => "not_closed",
+        GaitStatus::NotConverged => "not_converged",
+        GaitStatus::Stopped(stop) => stops::name(stop.reason),
+    }
+}
+
 struct Report<'a> {
     loaded: &'a Loaded,
     parameters: &'a [f64],
@@ -67,15 +77,6 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    fn status(&self) -> &'static str {
-        match &self.outcome.status {
-            GaitStatus::Converged => "converged",
-            GaitStatus::Open(_) => "not_closed",
-            GaitStatus::NotConverged => "not_converged",
-            GaitStatus::Stopped(stop) => stops::name(stop.reason),
-        }
-    }
-
     /// The gait only where there is one: the last point of a failed search is no result.
     fn gait(&self) -> Option<&Gait> {
         self.outcome.gait.as_ref().filter(|_| self.outcome.status == GaitStatus::Converged)
@@ -91,7 +92,7 @@ impl Report<'_> {
         let names = spec.parameters.iter().map(|p| p.name.as_str());
         let mut all = json!({
             "model": spec.name,
-            "status": self.status(),
+            "status": status(&self.outcome.status),
             "message": self.outcome.message,
             "parameters": named(names, self.parameters),
             "residual": self.outcome.residual,
@@ -169,7 +170,7 @@ impl Report<'_> {
 
     fn text(&self) -> String {
         let spec = &self.loaded.spec;
-        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
+        let mut text = format!("{} · gait\n{}: {}\n", spec.name, status(&self.outcome.status), self.outcome.message);
         for warning in self.all_warnings() {
             text += &format!("warning: {warning}\n");
         }

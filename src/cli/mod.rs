@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod completions;
+mod compare;
 mod explain;
 mod gait;
 mod guards;
@@ -119,6 +120,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Gait(args) => gait::run(cli, args),
         Command::Simulate(args) => simulate::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
+        Command::Compare(args) => compare::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
     }
 }

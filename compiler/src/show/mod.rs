@@ -4,6 +4,7 @@
 //! content (`sheet`), formulas set by `plain` and `latex`; each page arranges it.
 
 mod collect;
+mod drawn;
 mod escape;
 #[cfg(test)]
 mod formula_tests;

@@ -109,7 +109,7 @@ fn panel(value: &Value, sink: &mut Sink<'_>) -> Option<Vec<Equation>> {
 /// The strings of an inner array.
 fn texts(value: &Value, key: &str, expected: &str, example: &str, sink: &mut Sink<'_>) -> Option<Vec<Text>> {
     let ValueKind::Array(values) = &value.kind else {
-        sink.wrong_type(value, &format!("an entry of {key}"), expected, example);
+        sink.wrong_type(value, key, expected, example);
         return None;
     };
     values
