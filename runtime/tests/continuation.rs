@@ -9,15 +9,15 @@ use common::formula::Formula;
 use gaitc_runtime::orbit::GaitRequest;
 use gaitc_runtime::return_map::{ReturnMap, StopReason};
 use gaitc_runtime::study::continuation::{
-    Bifurcation, Branch, Criticality, Diagram, EndReason, FollowError, FollowOutcome, FollowRequest, Interrupt, Kind,
-    Settings, Side, follow,
+    Bifurcation, Branch, ContinuationError, ContinuationOutcome, ContinuationRequest, Criticality, Diagram, EndReason,
+    Interrupt, Kind, Settings, Side, follow,
 };
 
 fn run(map: &dyn ReturnMap, p: &[f64], range: (f64, f64), guess: &[f64], settings: Settings) -> Diagram {
-    let request = FollowRequest { gait: GaitRequest::new(p, &[]), parameter: 0, range, settings };
+    let request = ContinuationRequest { gait: GaitRequest::new(p, &[]), parameter: 0, range, settings };
     match follow(map, &request, guess).unwrap() {
-        FollowOutcome::Followed(diagram) => diagram,
-        FollowOutcome::NoStart(outcome) => panic!("{}", outcome.message),
+        ContinuationOutcome::Diagram(diagram) => diagram,
+        ContinuationOutcome::NoStart(outcome) => panic!("{}", outcome.message),
     }
 }
 
@@ -260,22 +260,23 @@ fn two_flips_in_one_step_are_told_apart() {
 fn what_cannot_be_followed_is_said() {
     let map = logistic();
     let none = |p: &[f64], range, guess: &[f64], parameter| {
-        let request = FollowRequest { gait: GaitRequest::new(p, &[]), parameter, range, settings: Settings::default() };
+        let request =
+            ContinuationRequest { gait: GaitRequest::new(p, &[]), parameter, range, settings: Settings::default() };
         follow(&map, &request, guess)
     };
     assert_eq!(none(&[2.0], (1.0, 1.0), &[0.5], 0).unwrap_err().to_string().split(' ').next(), Some("the"));
-    assert!(matches!(none(&[2.0], (2.5, 3.0), &[0.5], 0), Err(FollowError::Range { .. })));
-    assert!(matches!(none(&[2.0], (f64::NAN, 3.0), &[0.5], 0), Err(FollowError::Range { .. })));
-    assert!(matches!(none(&[2.0], (1.0, 3.0), &[0.5], 1), Err(FollowError::Parameter(1))));
+    assert!(matches!(none(&[2.0], (2.5, 3.0), &[0.5], 0), Err(ContinuationError::Range { .. })));
+    assert!(matches!(none(&[2.0], (f64::NAN, 3.0), &[0.5], 0), Err(ContinuationError::Range { .. })));
+    assert!(matches!(none(&[2.0], (1.0, 3.0), &[0.5], 1), Err(ContinuationError::Parameter(1))));
     // x+ = x + 1 + p^2 has no fixed point.
     let map = Formula::new(|&[x], &[p]| Some(([x + 1.0 + p * p], [[1.0]], [[2.0 * p]])));
-    let request = FollowRequest {
+    let request = ContinuationRequest {
         gait: GaitRequest::new(&[0.5], &[]),
         parameter: 0,
         range: (0.0, 1.0),
         settings: Settings::default(),
     };
-    assert!(matches!(follow(&map, &request, &[0.0]), Ok(FollowOutcome::NoStart(_))));
+    assert!(matches!(follow(&map, &request, &[0.0]), Ok(ContinuationOutcome::NoStart(_))));
     // Every x is a fixed point: there is no direction to go.
     let map = Formula::new(|&[x], &[_]| Some(([x], [[1.0]], [[0.0]])));
     let all = run(&map, &[0.5], (0.0, 1.0), &[0.3], Settings::default());

@@ -1,5 +1,6 @@
 //! The command line as clap reads it.
 
+use super::continuation::ContinueArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -34,6 +35,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Find a periodic gait and its stability
     Gait(GaitArgs),
+    /// Follow a gait over a parameter: where it is stable, where it changes in kind, where it ends
+    Continue(ContinueArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
     /// Measure every generated derivative against an independent route

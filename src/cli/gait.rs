@@ -58,6 +58,28 @@ fn unmeasured(gait: &Gait) -> bool {
     !gait.map.measures.is_empty() && gait.map.measures.iter().all(|m| m.is_nan())
 }
 
+/// The name of a search's end in JSON.
+pub(super) fn status(status: &GaitStatus) -> &'static str {
+    match status {
+        GaitStatus::Converged => "converged",
+        GaitStatus::Open(_) => "not_closed",
+        GaitStatus::NotConverged => "not_converged",
+        GaitStatus::Stopped(stop) => stop_status(stop.reason),
+    }
+}
+
+/// The name in JSON of the reason why a run has no next step.
+pub(super) fn stop_status(reason: StopReason) -> &'static str {
+    match reason {
+        StopReason::NoEvent => "no_event",
+        StopReason::StepLimit => "step_limit",
+        StopReason::StepTooSmall => "step_too_small",
+        StopReason::NotFinite => "not_finite",
+        StopReason::Inconsistent => "inconsistent",
+        StopReason::Zeno => "zeno",
+    }
+}
+
 struct Report<'a> {
     loaded: &'a Loaded,
     parameters: &'a [f64],
@@ -67,22 +89,6 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    fn status(&self) -> &'static str {
-        match &self.outcome.status {
-            GaitStatus::Converged => "converged",
-            GaitStatus::Open(_) => "not_closed",
-            GaitStatus::NotConverged => "not_converged",
-            GaitStatus::Stopped(stop) => match stop.reason {
-                StopReason::NoEvent => "no_event",
-                StopReason::StepLimit => "step_limit",
-                StopReason::StepTooSmall => "step_too_small",
-                StopReason::NotFinite => "not_finite",
-                StopReason::Inconsistent => "inconsistent",
-                StopReason::Zeno => "zeno",
-            },
-        }
-    }
-
     /// The gait only where there is one: the last point of a failed search is no result.
     fn gait(&self) -> Option<&Gait> {
         self.outcome.gait.as_ref().filter(|_| self.outcome.status == GaitStatus::Converged)
@@ -98,7 +104,7 @@ impl Report<'_> {
         let names = spec.parameters.iter().map(|p| p.name.as_str());
         let mut all = json!({
             "model": spec.name,
-            "status": self.status(),
+            "status": status(&self.outcome.status),
             "message": self.outcome.message,
             "parameters": named(names, self.parameters),
             "residual": self.outcome.residual,
@@ -176,7 +182,7 @@ impl Report<'_> {
 
     fn text(&self) -> String {
         let spec = &self.loaded.spec;
-        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
+        let mut text = format!("{} · gait\n{}: {}\n", spec.name, status(&self.outcome.status), self.outcome.message);
         for warning in self.all_warnings() {
             text += &format!("warning: {warning}\n");
         }
@@ -220,6 +226,6 @@ fn integration(method: Method) -> String {
     format!("integrated with {} (implicit, Radau IIA with {stages} stages)\n", inputs::method_name(method))
 }
 
-fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
+pub(super) fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
     Value::Object(names.zip(values).map(|(name, v)| (name.to_owned(), json!(v))).collect())
 }

@@ -4,6 +4,7 @@
 
 mod args;
 mod check;
+mod continuation;
 mod explain;
 mod gait;
 mod guards;
@@ -87,6 +88,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Show(args) => show::run(cli, args),
         Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
+        Command::Continue(args) => continuation::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
     }

@@ -5,7 +5,8 @@ use super::locate::Found;
 use super::path::{Path, Walk};
 use super::system::{Sample, System};
 use super::{
-    Bifurcation, Branch, Diagram, EndReason, FollowError, FollowOutcome, FollowRequest, Kind, Parent, Point, Settings,
+    Bifurcation, Branch, ContinuationError, ContinuationOutcome, ContinuationRequest, Diagram, EndReason, Kind, Parent,
+    Point, Settings,
 };
 use crate::orbit::{GaitRequest, GaitStatus, find_gait, multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, RequestError, ReturnMap};
@@ -32,15 +33,20 @@ struct Traced<'a> {
 ///
 /// # Errors
 /// When the request is wrong. A gait that is not found, a branch that ends are results.
-pub fn follow(map: &dyn ReturnMap, request: &FollowRequest<'_>, guess: &[f64]) -> Result<FollowOutcome, FollowError> {
+pub fn follow(
+    map: &dyn ReturnMap,
+    request: &ContinuationRequest<'_>,
+    guess: &[f64],
+) -> Result<ContinuationOutcome, ContinuationError> {
     let (lower, upper) = request.range;
-    let start = *request.gait.parameters.get(request.parameter).ok_or(FollowError::Parameter(request.parameter))?;
+    let start =
+        *request.gait.parameters.get(request.parameter).ok_or(ContinuationError::Parameter(request.parameter))?;
     if !(lower.is_finite() && upper.is_finite() && lower < upper && (lower..=upper).contains(&start)) {
-        return Err(FollowError::Range { lower, upper, start });
+        return Err(ContinuationError::Range { lower, upper, start });
     }
     let outcome = find_gait(map, &GaitRequest { measures: false, ..request.gait }, guess)?;
     let Some(gait) = outcome.gait.as_ref().filter(|_| outcome.status == GaitStatus::Converged) else {
-        return Ok(FollowOutcome::NoStart(Box::new(outcome)));
+        return Ok(ContinuationOutcome::NoStart(Box::new(outcome)));
     };
     let size = |(z, guess): (&f64, &f64)| Some(z.abs().max(guess.abs())).filter(|size| *size > NO_SIZE).unwrap_or(1.0);
     let scale = DVector::from_iterator(guess.len(), gait.coordinates.iter().zip(guess).map(size));
@@ -56,9 +62,9 @@ pub fn follow(map: &dyn ReturnMap, request: &FollowRequest<'_>, guess: &[f64]) -
     let s = if start == upper { 1.0 } else { (start - lower) / (upper - lower) };
     let y = gait.coordinates.component_div(&system.scale).insert_row(guess.len(), s);
     match system.evaluate(&y)? {
-        Ok(sample) => Ok(FollowOutcome::Followed(diagram(system, &request.settings, sample)?)),
+        Ok(sample) => Ok(ContinuationOutcome::Diagram(diagram(system, &request.settings, sample)?)),
         // It could be evaluated a moment ago.
-        Err(_) => Ok(FollowOutcome::NoStart(Box::new(outcome))),
+        Err(_) => Ok(ContinuationOutcome::NoStart(Box::new(outcome))),
     }
 }
 

@@ -25,7 +25,7 @@ use thiserror::Error;
 
 /// What to follow.
 #[derive(Clone, Debug)]
-pub struct FollowRequest<'a> {
+pub struct ContinuationRequest<'a> {
     /// The gait to start from: all parameters, memory, period, accuracy, tolerance.
     pub gait: GaitRequest<'a>,
     /// Index of the parameter that varies. Its value at the start lies in the range.
@@ -75,7 +75,7 @@ impl Default for Settings {
 /// Wrong input.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum FollowError {
+pub enum ContinuationError {
     /// The map refuses the request.
     #[error(transparent)]
     Request(#[from] RequestError),
@@ -96,11 +96,11 @@ pub enum FollowError {
 
 /// What came of it.
 #[derive(Clone, Debug)]
-pub enum FollowOutcome {
+pub enum ContinuationOutcome {
     /// There is no gait to start from; the search for it.
     NoStart(Box<GaitOutcome>),
     /// The branches. The first is the one that was asked for.
-    Followed(Diagram),
+    Diagram(Diagram),
 }
 
 /// Branches, and how they hang together.
@@ -223,6 +223,8 @@ pub enum EndReason {
     NotClosed(Open),
     /// Newton's method fails however short the step is.
     StepTooSmall,
+    /// The coordinates grow beyond all bounds.
+    Unbounded,
     /// So many points were asked for.
     PointLimit,
     /// It has come back to the branch of half its period.

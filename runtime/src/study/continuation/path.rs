@@ -17,6 +17,8 @@ const FEW: usize = 4;
 const RADIUS: f64 = 0.5;
 /// Steps shorter than this many shortest ones accept what longer steps do not: a corner, bifurcations on top of each other.
 const NEARLY_SHORTEST: f64 = 8.0;
+/// Coordinates this many times their scale have no bound.
+const UNBOUNDED: f64 = 1e6;
 /// How near its start a loop closes.
 const CLOSED: f64 = 1e-6;
 
@@ -97,6 +99,7 @@ impl Walk<'_, '_> {
             (_, true, _) => Some(EndReason::Closed),
             (_, _, Some(open)) => Some(EndReason::NotClosed(open)),
             (Some(side), ..) => Some(EndReason::RangeEnd(side)),
+            _ if sample.y.amax() > UNBOUNDED => Some(EndReason::Unbounded),
             _ => None,
         }
     }

@@ -1,0 +1,207 @@
+//! `gaitc continue MODEL --over NAME=LO..HI`: a gait followed over a parameter.
+
+mod args;
+mod json;
+mod shown;
+mod text;
+mod windows;
+mod words;
+
+pub(super) use args::ContinueArgs;
+
+use super::args::Cli;
+use super::{InputError, Outcome, gait, inputs, optimize, output};
+use crate::load::{Loaded, load};
+use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, parse_range};
+use gaitc_compiler::front::{LONGEST_PERIOD, format_quantity};
+use gaitc_compiler::ir::Parameter;
+use gaitc_runtime::orbit::GaitRequest;
+use gaitc_runtime::study::continuation::{
+    ContinuationOutcome, ContinuationRequest, Diagram, EndReason, Settings, follow,
+};
+use shown::Shown;
+
+/// More points than this show nothing new.
+const MOST_POINTS: usize = 100_000;
+/// Steps shorter than this part of the range would take days.
+const SHORTEST_STEP: f64 = 1e-6;
+/// Ranges below this part of the values in them are rounding.
+const NO_RANGE: f64 = 1e-9;
+
+pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError> {
+    inputs::period(args.period)?;
+    points(args)?;
+    let loaded = load(&args.model.model, cli.specs.as_deref())?;
+    let mut parameters = inputs::parameters(&loaded, &args.model)?;
+    let (over, range) = over(&loaded, &args.over)?;
+    let parameter = &loaded.spec.parameters[over];
+    parameters[over] = start(args, parameter, parameters[over], range)?;
+    let mut warnings = inputs::outside_range(&loaded, &parameters);
+    warnings.extend(beyond(parameter, range));
+    let shown = Shown::new(&loaded, args.measure.as_deref())?;
+    let guess = inputs::guess(&loaded, &args.search)?;
+    let memory = loaded.memory();
+    let accuracy = inputs::accuracy(&args.search)?;
+    let search = GaitRequest::new(&parameters, &memory);
+    let tolerance = search.tolerance.max(10.0 * accuracy.relative);
+    let gait = GaitRequest { period: args.period, accuracy, tolerance, ..search };
+    let settings = settings(args, parameter, range)?;
+    let interrupt = settings.interrupt.clone();
+    let request = ContinuationRequest { gait, parameter: over, range, settings };
+    let outcome = follow(loaded.compiled, &request, &guess)?;
+    let report = Report { loaded: &loaded, parameters: &parameters, over, range, warnings: &warnings, shown, args };
+    match &outcome {
+        ContinuationOutcome::NoStart(search) => {
+            let status = gait::status(&search.status);
+            let message = report.no_start(&search.message);
+            report.print(cli.json, status, &message, &Diagram::default());
+            Ok(Outcome::Without)
+        }
+        ContinuationOutcome::Diagram(diagram) => {
+            let interrupted = interrupt.requested();
+            let (status, message) = report.summary(diagram, interrupted);
+            report.print(cli.json, status, &message, diagram);
+            Ok(if interrupted { Outcome::Interrupted } else { Outcome::Done })
+        }
+    }
+}
+
+/// What every way of showing a diagram needs.
+struct Report<'a> {
+    loaded: &'a Loaded,
+    /// All parameters at the start.
+    parameters: &'a [f64],
+    /// Index of the parameter that varies.
+    over: usize,
+    /// Its range (SI units).
+    range: (f64, f64),
+    warnings: &'a [String],
+    shown: Shown,
+    args: &'a ContinueArgs,
+}
+
+impl Report<'_> {
+    fn parameter(&self) -> &Parameter {
+        &self.loaded.spec.parameters[self.over]
+    }
+
+    fn print(&self, json: bool, status: &str, message: &str, diagram: &Diagram) {
+        if json {
+            output::json(&self.json(status, message, diagram));
+        } else {
+            output::print(&self.text(status, message, diagram));
+        }
+    }
+
+    /// Status and message of a diagram.
+    fn summary(&self, diagram: &Diagram, interrupted: bool) -> (&'static str, String) {
+        let ends = || diagram.branches.iter().flat_map(|branch| &branch.ends);
+        let status = match () {
+            () if interrupted => "interrupted",
+            () if ends().any(|end| *end == EndReason::NoDirection) => "no_direction",
+            () if ends().any(|end| *end == EndReason::PointLimit) => "point_limit",
+            () => "complete",
+        };
+        let count = |count: usize, what: &str| match count {
+            1 => format!("1 {what}"),
+            _ if what.ends_with("ch") => format!("{count} {what}es"),
+            _ => format!("{count} {what}s"),
+        };
+        let message = format!(
+            "{} of gaits, {}, {}",
+            count(diagram.branches.len(), "branch"),
+            count(diagram.branches.iter().map(|b| b.points.len()).sum(), "point"),
+            count(diagram.branches.iter().map(|b| b.bifurcations.len()).sum(), "bifurcation"),
+        );
+        (status, message)
+    }
+
+    /// Why there is nothing to follow, and what to do.
+    fn no_start(&self, why: &str) -> String {
+        let parameter = self.parameter();
+        let at = format_quantity(self.parameters[self.over], &parameter.unit);
+        format!("no gait to start from at {} = {at}: {why}", parameter.name)
+    }
+}
+
+/// The parameter of `--over` and its range.
+fn over(loaded: &Loaded, text: &str) -> Result<(usize, (f64, f64)), InputError> {
+    let (name, range) = parse_assignment(text)?;
+    let index = inputs::parameter(loaded, "--over", name)?;
+    let parameter = &loaded.spec.parameters[index];
+    let (lower, upper) = parse_range(range, parameter.dimension)?;
+    if upper - lower <= NO_RANGE * lower.abs().max(upper.abs()) {
+        let at = format_quantity(lower, &parameter.unit);
+        return Err(InputError(format!(
+            "--over {text}: both ends of the range are {at}\n  help: give two different ends, as in `--over '{name}=LO..HI {}'`; for one \
+             value there is `gaitc gait`",
+            parameter.unit
+        )));
+    }
+    Ok((index, (lower, upper)))
+}
+
+/// One sentence where the range leaves the one that the spec gives: most often a forgotten unit.
+fn beyond(parameter: &Parameter, (from, to): (f64, f64)) -> Option<String> {
+    let (lower, upper) = parameter.range?;
+    let slack = NO_RANGE * (upper - lower);
+    if from >= lower - slack && to <= upper + slack {
+        return None;
+    }
+    let [from, to, lower, upper] = [from, to, lower, upper].map(|v| format_quantity(v, &parameter.unit));
+    let name = &parameter.name;
+    Some(format!("`{name}` goes from {from} to {to}, beyond the range that the spec gives for it, {lower} to {upper}"))
+}
+
+/// Where to start: what `--from` says, else the parameter's own value, or the end of the range that is nearest to it.
+fn start(args: &ContinueArgs, parameter: &Parameter, own: f64, (lower, upper): (f64, f64)) -> Result<f64, InputError> {
+    let Some(text) = &args.from else {
+        return Ok(own.clamp(lower, upper));
+    };
+    let value = parse_quantity(text, parameter.dimension)?;
+    // An end that was written in the same way may differ by its rounding.
+    let slack = NO_RANGE * (upper - lower);
+    if value < lower - slack || value > upper + slack {
+        let [value, lower, upper] = [value, lower, upper].map(|v| format_quantity(v, &parameter.unit));
+        return Err(InputError(format!(
+            "--from {text}: {value} is outside the range of --over, {lower} to {upper}\n  help: start inside the range"
+        )));
+    }
+    Ok(value.clamp(lower, upper))
+}
+
+fn points(args: &ContinueArgs) -> Result<(), InputError> {
+    if !(1..=MOST_POINTS).contains(&args.points) {
+        return Err(InputError(format!("--points {}: give a number from 1 to {MOST_POINTS}", args.points)));
+    }
+    let longest = u32::try_from(args.doublings).ok().and_then(|n| args.period.checked_shl(n)).unwrap_or(usize::MAX);
+    if args.doublings > 10 || longest > LONGEST_PERIOD {
+        return Err(InputError(format!(
+            "--doublings {}: gaits of {} maps doubled so often are longer than {LONGEST_PERIOD} maps\n  help: give a smaller number",
+            args.doublings, args.period
+        )));
+    }
+    Ok(())
+}
+
+fn settings(args: &ContinueArgs, parameter: &Parameter, (lower, upper): (f64, f64)) -> Result<Settings, InputError> {
+    let mut settings = Settings {
+        point_limit: args.points,
+        doublings: args.doublings,
+        branches: args.branches,
+        interrupt: optimize::on_interrupt(),
+        ..Settings::default()
+    };
+    if let Some(text) = &args.step {
+        let step = parse_quantity(text, parameter.dimension)? / (upper - lower);
+        if !(SHORTEST_STEP..=1.0).contains(&step) {
+            let [least, most] =
+                [SHORTEST_STEP * (upper - lower), upper - lower].map(|v| format_quantity(v, &parameter.unit));
+            return Err(InputError(format!("--step {text}: give a step from {least} to {most}, the whole range")));
+        }
+        settings.longest = step;
+        settings.initial = settings.initial.min(step);
+        settings.shortest = settings.shortest.min(1e-3 * step);
+    }
+    Ok(settings)
+}
