@@ -200,7 +200,7 @@ fn settings(args: &ContinueArgs, parameter: &Parameter, (lower, upper): (f64, f6
             return Err(InputError(format!("--step {text}: give a step from {least} to {most}, the whole range")));
         }
         settings.longest = step;
-        settings.initial = settings.initial.min(step);
+        settings.initial = 0.25 * step;
         settings.shortest = settings.shortest.min(1e-3 * step);
     }
     Ok(settings)

@@ -6,6 +6,8 @@ use crate::cli::output;
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::study::continuation::{Branch, Diagram};
 
+/// A spectral radius this close to 1 is that of a bifurcation.
+const NEUTRAL: f64 = 1e-7;
 /// How many gaits of a branch the table shows.
 const ROWS: usize = 11;
 
@@ -82,7 +84,11 @@ impl Report<'_> {
         let count = branch.points.len().min(ROWS);
         let spread = (0..count).map(|i| if count > 1 { i * last / (count - 1) } else { 0 });
         let rows = spread.filter_map(|i| branch.points.get(i)).map(|point| {
-            let stable = if point.stable() { "stable" } else { "not stable" };
+            let stable = match point.spectral_radius {
+                radius if (radius - 1.0).abs() < NEUTRAL => "neutral",
+                radius if radius < 1.0 => "stable",
+                _ => "not stable",
+            };
             let shown = format_quantity(self.shown.of(point), &self.shown.unit);
             vec![words::value(self, point.value), shown, format!("{:.6}", point.spectral_radius), stable.to_owned()]
         });

@@ -1,7 +1,7 @@
 //! What bifurcations and ends of branches mean, and what to do about them, in words.
 
 use super::Report;
-use gaitc_compiler::front::{format_number, in_unit};
+use gaitc_compiler::front::{format_number, format_quantity, in_unit};
 use gaitc_runtime::orbit::why;
 use gaitc_runtime::study::continuation::{Bifurcation, Branch, Criticality, Diagram, EndReason, Kind, Side};
 
@@ -81,21 +81,27 @@ pub(super) fn end(
     reason: &EndReason,
 ) -> (String, Option<String>) {
     let (model, name) = (&report.loaded.spec.name, &report.parameter().name);
+    // An end is that of the last point, but for the way back from the start.
+    let points = if std::ptr::eq(reason, &branch.ends[0]) { branch.points.first() } else { branch.points.last() };
+    let (at, duration) = points.map_or((f64::NAN, f64::NAN), |point| (point.value, point.duration));
+    let last = format!("gaitc gait {model} --set '{name}={}'", value(report, at));
     match reason {
         EndReason::RangeEnd(Side::Lower) => ("the lower end of the range".to_owned(), None),
         EndReason::RangeEnd(Side::Upper) => ("the upper end of the range".to_owned(), None),
         EndReason::Closed => ("the branch is a closed loop".to_owned(), None),
         EndReason::MapStops(stop) => (
-            format!("beyond it the map does not come back: {}", why(stop.reason)),
-            Some(format!("look at the last gait: gaitc gait {model} --set {name}=...; its guards show what fails")),
+            format!(
+                "beyond it the map does not come back: {} (the last gait takes {})",
+                why(stop.reason),
+                format_quantity(duration, "s")
+            ),
+            Some(format!("look at the last gait and its guards: {last}")),
         ),
         EndReason::NotClosed(open) => (open.describe(report.loaded.compiled.info()), None),
         EndReason::StepTooSmall => (
             "beyond it no gait is found however short the step: most often a guard is only grazed there, or events change their order"
                 .to_owned(),
-            Some(format!(
-                "look at the last gait's guards: gaitc gait {model} --set {name}=...; start again from the other side with --from"
-            )),
+            Some(format!("look at the last gait and its guards: {last}; start again beyond with --from")),
         ),
         EndReason::Unbounded => ("the section's coordinates grow beyond all bounds".to_owned(), None),
         EndReason::PointLimit => (

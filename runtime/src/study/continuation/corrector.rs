@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 /// Most Newton steps of one correction.
 const ITERATIONS: usize = 8;
 /// A residual below this is rounding.
-const ROUNDING: f64 = 1e-15;
+const ROUNDING: f64 = 1e-13;
 /// Singular values below this part of the largest are 0.
 const RANK: f64 = 1e-8;
 
