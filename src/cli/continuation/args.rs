@@ -2,11 +2,12 @@
 
 use crate::cli::args::{ModelArgs, SearchArgs};
 use clap::Args;
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  gaitc continue prescribed_length --over 'psi=5..45 deg'\n  \
 gaitc continue compass_walker --over 'gamma=3..5 deg' --doublings 2\n  \
-gaitc continue angle_switched --over 'psi=15..30 deg' --measure climb_speed --json")]
+gaitc continue angle_switched --over 'psi=15..30 deg' --measure climb_speed --plot branches.svg --out branches.csv")]
 pub(crate) struct ContinueArgs {
     #[command(flatten)]
     pub(crate) model: ModelArgs,
@@ -36,4 +37,10 @@ pub(crate) struct ContinueArgs {
     /// Measure or section coordinate to show beside the parameter [default: the first measure]
     #[arg(long, value_name = "NAME")]
     pub(crate) measure: Option<String>,
+    /// Write all gaits and bifurcations as a table: .csv or .parquet
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Draw the branches: .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot: Option<PathBuf>,
 }

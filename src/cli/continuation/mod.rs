@@ -1,6 +1,8 @@
 //! `gaitc continue MODEL --over NAME=LO..HI`: a gait followed over a parameter.
 
 mod args;
+mod data;
+mod drawing;
 mod json;
 mod shown;
 mod text;
@@ -10,8 +12,11 @@ mod words;
 pub(super) use args::ContinueArgs;
 
 use super::args::Cli;
-use super::{InputError, Outcome, gait, inputs, optimize, output};
+use super::{InputError, Outcome, gait, inputs, optimize, output, plots, provenance};
+use crate::files;
 use crate::load::{Loaded, load};
+use crate::provenance::Provenance;
+use crate::table;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, parse_range};
 use gaitc_compiler::front::{LONGEST_PERIOD, format_quantity};
 use gaitc_compiler::ir::Parameter;
@@ -20,7 +25,12 @@ use gaitc_runtime::study::continuation::{
     ContinuationOutcome, ContinuationRequest, Diagram, EndReason, Settings, follow,
 };
 use shown::Shown;
+use std::path::Path;
 
+/// Status of a diagram that Ctrl-C ended.
+const INTERRUPTED: &str = "interrupted";
+/// Status where the start is a gait, but no branch leads on.
+const NO_DIRECTION: &str = "no_direction";
 /// More points than this show nothing new.
 const MOST_POINTS: usize = 100_000;
 /// Steps shorter than this part of the range would take days.
@@ -30,7 +40,8 @@ const NO_RANGE: f64 = 1e-9;
 
 pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError> {
     inputs::period(args.period)?;
-    points(args)?;
+    counts(args)?;
+    places(args)?;
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let mut parameters = inputs::parameters(&loaded, &args.model)?;
     let (over, range) = over(&loaded, &args.over)?;
@@ -49,21 +60,39 @@ pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError>
     let interrupt = settings.interrupt.clone();
     let request = ContinuationRequest { gait, parameter: over, range, settings };
     let outcome = follow(loaded.compiled, &request, &guess)?;
+    let provenance = provenance::of(&cli.run, &loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, over, range, warnings: &warnings, shown, args };
     match &outcome {
         ContinuationOutcome::NoStart(search) => {
-            let status = gait::status(&search.status);
-            let message = report.no_start(&search.message);
-            report.print(cli.json, status, &message, &Diagram::default());
+            let (status, message) = (gait::status(&search.status), report.no_start(&search.message));
+            report.print(cli.json.then_some(&provenance), (status, &message), &Diagram::default());
             Ok(Outcome::Without)
         }
         ContinuationOutcome::Diagram(diagram) => {
-            let interrupted = interrupt.requested();
-            let (status, message) = report.summary(diagram, interrupted);
-            report.print(cli.json, status, &message, diagram);
-            Ok(if interrupted { Outcome::Interrupted } else { Outcome::Done })
+            let (status, message) = report.summary(diagram, interrupt.requested());
+            report.print(cli.json.then_some(&provenance), (status, &message), diagram);
+            report.save(diagram, &provenance);
+            Ok(match status {
+                INTERRUPTED => Outcome::Interrupted,
+                NO_DIRECTION => Outcome::Without,
+                _ => Outcome::Done,
+            })
         }
     }
+}
+
+/// Refuses files that cannot be written, or not as what they are named, before the work begins.
+fn places(args: &ContinueArgs) -> Result<(), InputError> {
+    if let Some(path) = &args.out {
+        table::Format::of(path).map_err(|error| InputError(format!("--out: {error}")))?;
+        files::try_place(path).map_err(|error| not_written(path, &error))?;
+    }
+    args.plot.as_deref().map_or(Ok(()), |path| plots::check("--plot", path))
+}
+
+fn not_written(path: &Path, error: &dyn std::fmt::Display) -> InputError {
+    let path = path.display();
+    InputError(format!("--out {path}: {error}\n  help: name a file in a folder that exists and can be written"))
 }
 
 /// What every way of showing a diagram needs.
@@ -85,11 +114,22 @@ impl Report<'_> {
         &self.loaded.spec.parameters[self.over]
     }
 
-    fn print(&self, json: bool, status: &str, message: &str, diagram: &Diagram) {
-        if json {
-            output::json(&self.json(status, message, diagram));
-        } else {
-            output::print(&self.text(status, message, diagram));
+    fn print(&self, json: Option<&Provenance>, (status, message): (&str, &str), diagram: &Diagram) {
+        match json {
+            Some(provenance) => output::result(provenance, self.json(status, message, diagram)),
+            None => output::print(&self.text(status, message, diagram)),
+        }
+    }
+
+    /// Writes the files that were asked for; what was printed stands even if that fails.
+    fn save(&self, diagram: &Diagram, provenance: &Provenance) {
+        if let Some(path) = &self.args.out
+            && let Err(error) = table::write(&self.table(diagram), path, provenance)
+        {
+            output::lose(&not_written(path, &error).0);
+        }
+        if let Some(path) = &self.args.plot {
+            plots::save("--plot", path, &self.picture(diagram), provenance);
         }
     }
 
@@ -97,8 +137,8 @@ impl Report<'_> {
     fn summary(&self, diagram: &Diagram, interrupted: bool) -> (&'static str, String) {
         let ends = || diagram.branches.iter().flat_map(|branch| &branch.ends);
         let status = match () {
-            () if interrupted => "interrupted",
-            () if ends().any(|end| *end == EndReason::NoDirection) => "no_direction",
+            () if interrupted => INTERRUPTED,
+            () if ends().any(|end| *end == EndReason::NoDirection) => NO_DIRECTION,
             () if ends().any(|end| *end == EndReason::PointLimit) => "point_limit",
             () => "complete",
         };
@@ -170,7 +210,8 @@ fn start(args: &ContinueArgs, parameter: &Parameter, own: f64, (lower, upper): (
     Ok(value.clamp(lower, upper))
 }
 
-fn points(args: &ContinueArgs) -> Result<(), InputError> {
+/// Refuses numbers that make no sense, or no end.
+fn counts(args: &ContinueArgs) -> Result<(), InputError> {
     if !(1..=MOST_POINTS).contains(&args.points) {
         return Err(InputError(format!("--points {}: give a number from 1 to {MOST_POINTS}", args.points)));
     }

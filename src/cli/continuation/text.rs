@@ -47,7 +47,8 @@ impl Report<'_> {
         let maps = if branch.period == 1 { "1 map".to_owned() } else { format!("{} maps", branch.period) };
         let mut text = format!("\nbranch {} · gaits of {maps}{}\n", number + 1, self.origin(diagram, branch));
         if branch.repeats_sooner {
-            text += &format!("note: these gaits repeat after {} maps already\n", branch.period / 2);
+            let sooner = if branch.period == 2 { "1 map".to_owned() } else { format!("{} maps", branch.period / 2) };
+            text += &format!("note: these gaits repeat after {sooner} already\n");
         }
         for window in windows(branch) {
             let [from, to] = [window.values.0, window.values.1].map(|v| words::value(self, v));

@@ -51,11 +51,11 @@ pub(super) fn meaning(report: &Report<'_>, branch: &Branch, bifurcation: &Bifurc
             let twice = 2 * branch.period;
             match bifurcation.criticality {
                 Some(Criticality::Supercritical) => {
-                    format!("gaits of {twice} maps begin, on the side where this one is past its flip (supercritical)")
+                    format!("gaits of {twice} maps branch off to where the multiplier is beyond -1 (supercritical)")
                 }
                 Some(Criticality::Subcritical) => {
                     format!(
-                        "gaits of {twice} maps end, from the side where this one is not past its flip (subcritical)"
+                        "gaits of {twice} maps, not stable, branch off to where the multiplier is not yet -1 (subcritical)"
                     )
                 }
                 None => format!("gaits of {twice} maps branch off"),

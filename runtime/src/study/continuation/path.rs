@@ -48,8 +48,9 @@ impl Walk<'_, '_> {
     pub(super) fn follow(&self, start: Sample, first_step: f64) -> Result<Path, RequestError> {
         let mut path = Path { samples: vec![start.clone()], found: Vec::new(), end: EndReason::PointLimit };
         let (mut step, mut here) = (first_step, start.clone());
-        // Where the last step failed, as a distance from here.
-        let mut wall = f64::INFINITY;
+        // Where the last step failed, as a distance from here, and how the map stopped on the way there, if it did: last of all
+        // it may be the amplified rounding of a run that takes ever longer.
+        let (mut wall, mut stopped) = (f64::INFINITY, None);
         if let Some(side) = leaves(&here) {
             path.end = EndReason::RangeEnd(side);
             return Ok(path);
@@ -61,13 +62,16 @@ impl Walk<'_, '_> {
             }
             match self.attempt(&here, &start, step, path.samples.len() - 1)? {
                 Trial::Shorter(miss) => {
-                    wall = step;
+                    if let Miss::Stopped(stop) = miss {
+                        stopped = Some(stop);
+                    }
+                    // What is no wall is passed with shorter steps.
+                    if stopped.is_some() {
+                        wall = step;
+                    }
                     step *= 0.5;
                     if step < self.settings.shortest {
-                        path.end = match miss {
-                            Miss::Stopped(stop) => EndReason::MapStops(stop),
-                            Miss::Diverged => EndReason::StepTooSmall,
-                        };
+                        path.end = stopped.map_or(EndReason::StepTooSmall, EndReason::MapStops);
                         return Ok(path);
                     }
                 }
@@ -86,6 +90,7 @@ impl Walk<'_, '_> {
                         return Ok(path);
                     }
                     wall = if wall > done { wall - done } else { f64::INFINITY };
+                    stopped = stopped.filter(|_| wall.is_finite());
                     step = self.next_step(step, angle, iterations, wall, &sample);
                     here = sample;
                 }
