@@ -1,5 +1,6 @@
 //! The command line as clap reads it.
 
+use super::continuation::ContinueArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -47,6 +48,8 @@ pub(crate) enum Command {
     Simulate(Box<super::simulate::SimulateArgs>),
     /// Show what others have published beside what is computed
     Compare(super::compare::CompareArgs),
+    /// Follow a gait over a parameter: where it is stable, where it changes in kind, where it ends
+    Continue(ContinueArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
     /// Measure every generated derivative against an independent route

@@ -4,8 +4,9 @@
 
 mod args;
 mod check;
-mod completions;
 mod compare;
+mod completions;
+mod continuation;
 mod explain;
 mod gait;
 mod guards;
@@ -119,6 +120,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
         Command::Simulate(args) => simulate::run(cli, args),
+        Command::Continue(args) => continuation::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Compare(args) => compare::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),

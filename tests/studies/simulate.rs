@@ -13,7 +13,20 @@ fn list(value: &Value, path: &str) -> Vec<f64> {
 /// Closed form of the ball: impacts at 2 v/g (1 + e + ...), parabolas between them.
 #[test]
 fn a_ball_bounces_as_it_should() {
-    let run = ["simulate", "bouncing_ball", "--set", "e=0.8", "--set", "kick=0 m/s", "--from", "v=3 m/s", "--steps", "3", "--interval", "10ms"];
+    let run = [
+        "simulate",
+        "bouncing_ball",
+        "--set",
+        "e=0.8",
+        "--set",
+        "kick=0 m/s",
+        "--from",
+        "v=3 m/s",
+        "--steps",
+        "3",
+        "--interval",
+        "10ms",
+    ];
     let (code, all) = json(&run);
     assert_eq!((code, all["status"].as_str()), (0, Some("completed")), "{:#}", all["message"]);
     let (g, e, v) = (9.81, 0.8, 3.0);
@@ -36,7 +49,22 @@ fn a_ball_bounces_as_it_should() {
     assert_eq!(number(&all, "/start/section/v"), 3.0);
     assert_eq!(all["samples"]["mode"][0], all["start"]["mode"]);
     // The same from the state in the air that the section stands for.
-    let state = ["simulate", "bouncing_ball", "--set", "e=0.8", "--set", "kick=0 m/s", "--state", "v=3 m/s", "--state", "y=0 m", "--steps", "3", "--samples", "1"];
+    let state = [
+        "simulate",
+        "bouncing_ball",
+        "--set",
+        "e=0.8",
+        "--set",
+        "kick=0 m/s",
+        "--state",
+        "v=3 m/s",
+        "--state",
+        "y=0 m",
+        "--steps",
+        "3",
+        "--samples",
+        "1",
+    ];
     assert_eq!(json(&state).1["events"], all["events"]);
 }
 
@@ -59,7 +87,8 @@ fn a_gait_goes_on_and_on() {
     assert_abs_diff_eq!(height, 4.0 * number(&gait, "/measures/step_length"), epsilon = 1e-7);
     let (v_y, t) = (list(&all, "/samples/observed/v_y"), list(&all, "/samples/t"));
     assert_eq!(v_y.len(), t.len());
-    let (_, one) = json(&["simulate", "prescribed_length", "--gait", "--steps", "1", "--show", "m*g", "--samples", "3"]);
+    let (_, one) =
+        json(&["simulate", "prescribed_length", "--gait", "--steps", "1", "--show", "m*g", "--samples", "3"]);
     let shown = one["samples"]["observed"].as_object().unwrap();
     assert_eq!(shown.len(), 1);
     assert_abs_diff_eq!(shown["m*g"][1].as_f64().unwrap(), 2.6 * 9.81, epsilon = 1e-12);

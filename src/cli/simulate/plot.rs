@@ -15,10 +15,11 @@ impl Report<'_> {
             (false, false) => drawing.iter().map(|panel| self.panel(panel, &self.along(panel))).collect(),
             (false, true) => self.state_panels(),
         };
-        let events = self.trajectory.events.iter().map(|event| picture::Event {
-            at: event.time,
-            label: self.transition(event.transition).to_owned(),
-        });
+        let events = self
+            .trajectory
+            .events
+            .iter()
+            .map(|event| picture::Event { at: event.time, label: self.transition(event.transition).to_owned() });
         Series { title: self.title(), x: label("time", "s"), panels, events: events.collect() }
     }
 
@@ -29,7 +30,8 @@ impl Report<'_> {
             .iter()
             .filter(|point| point.held)
             .map(|point| {
-                let mut at: Vec<(f64, f64)> = self.ends_of_segments().filter_map(|i| point.at.get(i).copied()).collect();
+                let mut at: Vec<(f64, f64)> =
+                    self.ends_of_segments().filter_map(|i| point.at.get(i).copied()).collect();
                 at.retain(|place| place.0.is_finite());
                 at.dedup();
                 Places { name: point.name.clone(), at }
@@ -64,9 +66,8 @@ impl Report<'_> {
     /// First and last samples of segments.
     fn ends_of_segments(&self) -> impl Iterator<Item = usize> {
         let segment = &self.trajectory.samples.segment;
-        (0..segment.len()).filter(move |&i| {
-            i == 0 || segment.get(i - 1) != segment.get(i) || segment.get(i + 1) != segment.get(i)
-        })
+        (0..segment.len())
+            .filter(move |&i| i == 0 || segment.get(i - 1) != segment.get(i) || segment.get(i + 1) != segment.get(i))
     }
 
     fn along(&self, chosen: &[Observation]) -> Vec<Vec<f64>> {

@@ -75,7 +75,11 @@ impl Report<'_> {
         match (run.stop, self.until) {
             (None, _) => format!("{steps} step{} in {time}", plural(steps)),
             (Some(reason), Until::Crossings(asked)) => {
-                format!("stopped at {time}, after {steps} of {asked} step{}: {}", plural(asked), stops::explanation(reason).0)
+                format!(
+                    "stopped at {time}, after {steps} of {asked} step{}: {}",
+                    plural(asked),
+                    stops::explanation(reason).0
+                )
             }
             (Some(reason), Until::Time(asked)) => {
                 format!("stopped at {time} of {}: {}", format_quantity(asked, "s"), stops::explanation(reason).0)
@@ -103,9 +107,8 @@ impl Report<'_> {
     pub(super) fn json(&self) -> Value {
         let (run, spec) = (self.trajectory, &self.loaded.spec);
         let state = |values: &[f64]| named(self.state_names(), values);
-        let stopped = run.stop.map(|reason| {
-            json!({ "reason": stops::name(reason), "time": run.time, "state": state(&run.end) })
-        });
+        let stopped =
+            run.stop.map(|reason| json!({ "reason": stops::name(reason), "time": run.time, "state": state(&run.end) }));
         json!({
             "model": spec.name,
             "status": self.status(),
@@ -209,7 +212,8 @@ impl Report<'_> {
         };
         let row = |first: [String; 4], values: &[f64]| [first.to_vec(), states(values)].concat();
         let seconds = |time: f64| format_quantity(time, "s");
-        let mut rows = vec![row(["0".to_owned(), seconds(0.0), String::new(), "start".to_owned()], &self.trajectory.start)];
+        let mut rows =
+            vec![row(["0".to_owned(), seconds(0.0), String::new(), "start".to_owned()], &self.trajectory.start)];
         let (mut since, mut passed) = (0.0, Vec::new());
         for event in &self.trajectory.events {
             passed.push(self.transition(event.transition));
