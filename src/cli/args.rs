@@ -58,7 +58,7 @@ pub(crate) enum Command {
     New(NewArgs),
     /// Print the JSON Schema of specs, for editors
     Schema(SchemaArgs),
-    /// Do again what a run file says, or what made a result: JSON, CSV, Parquet, SVG, PNG or HTML
+    /// Do again what a run file says, or what made a result
     Run(super::run::RunArgs),
     /// Print a script that completes commands and flags in a shell
     Completions(super::completions::CompletionsArgs),
