@@ -174,7 +174,7 @@ fn an_interrupted_branch_is_what_was_found_until_then() {
     let long = Command::new(env!("CARGO_BIN_EXE_gaitc"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .args(SPRAWL)
-        .args(["--step", "0.0001 deg", "--points", "100000", "--json"])
+        .args(["--step", "0.0001 deg", "--points", "10000", "--json"])
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();

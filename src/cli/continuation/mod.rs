@@ -32,7 +32,7 @@ const INTERRUPTED: &str = "interrupted";
 /// Status where the start is a gait, but no branch leads on.
 const NO_DIRECTION: &str = "no_direction";
 /// More points than this show nothing new.
-const MOST_POINTS: usize = 100_000;
+const MOST_POINTS: usize = 10_000;
 /// Steps shorter than this part of the range would take days.
 const SHORTEST_STEP: f64 = 1e-6;
 /// Ranges below this part of the values in them are rounding.

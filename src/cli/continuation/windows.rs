@@ -26,8 +26,9 @@ pub(super) fn windows(branch: &Branch) -> Vec<Window> {
         match all.last_mut().filter(|window| window.stable == stable) {
             Some(window) => window.extend(point.value),
             None => {
-                let between =
-                    branch.bifurcations.iter().find(|b| b.after + 1 == i && b.kind != Kind::Branch || b.after + 1 == i);
+                let between = branch.bifurcations.iter().filter(|b| b.after + 1 == i);
+                // Where another branch crosses, this one may change, too; in a step with both the other bifurcation does it.
+                let between = between.min_by_key(|b| b.kind == Kind::Branch);
                 let edge = between.map(|b| b.point.value);
                 let origin =
                     (i > 0 && i - 1 == branch.start && branch.parent.is_some()).then(|| branch.points[i - 1].value);

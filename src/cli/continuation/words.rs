@@ -99,8 +99,11 @@ pub(super) fn end(
         ),
         EndReason::NotClosed(open) => (open.describe(report.loaded.compiled.info()), None),
         EndReason::StepTooSmall => (
-            "beyond it no gait is found however short the step: most often a guard is only grazed there, or events change their order"
-                .to_owned(),
+            format!(
+                "beyond it no gait is found however short the step: most often a guard is only grazed there, or events change their \
+                 order (the last gait takes {})",
+                format_quantity(duration, "s")
+            ),
             Some(format!("look at the last gait and its guards: {last}; start again beyond with --from")),
         ),
         EndReason::Unbounded => ("the section's coordinates grow beyond all bounds".to_owned(), None),

@@ -46,7 +46,7 @@ impl<'a> System<'a> {
 
     /// A gait of twice the period near a flip, with the tangent away from it. `self` is the system of twice the period.
     pub(super) fn beside_flip(&self, flip: &Sample, single: &System<'_>) -> Result<Option<Sample>, RequestError> {
-        let Some(direction) = self.flip_direction(flip, single) else {
+        let Some(direction) = self.flip_direction(flip) else {
             return Ok(None);
         };
         let start = self.rescaled(single, &flip.y);
@@ -59,7 +59,7 @@ impl<'a> System<'a> {
     }
 
     /// The eigenvector of -1, in scaled unknowns.
-    fn flip_direction(&self, flip: &Sample, single: &System<'_>) -> Option<DVector<f64>> {
+    fn flip_direction(&self, flip: &Sample) -> Option<DVector<f64>> {
         let d = flip.coordinates();
         let matrix = DMatrix::from_fn(d, d, |i, j| {
             flip.jacobian[(i, j)] * self.scale[j] / self.scale[i] + if i == j { 1.0 } else { 0.0 }
@@ -67,7 +67,6 @@ impl<'a> System<'a> {
         let svd = matrix.svd(false, true);
         let (smallest, _) = svd.singular_values.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1))?;
         let vector = svd.v_t?.row(smallest).transpose();
-        debug_assert_eq!(single.scale.len(), d);
         Some(vector.insert_row(d, 0.0))
     }
 
@@ -91,7 +90,7 @@ impl<'a> System<'a> {
 
     /// From which side the gaits of twice the period come; `None` where two small amplitudes do not agree on it.
     pub(super) fn criticality(&self, flip: &Found, single: &System<'_>) -> Result<Option<Criticality>, RequestError> {
-        let Some(direction) = self.flip_direction(&flip.sample, single) else {
+        let Some(direction) = self.flip_direction(&flip.sample) else {
             return Ok(None);
         };
         let start = self.rescaled(single, &flip.sample.y);
