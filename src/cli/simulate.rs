@@ -186,7 +186,8 @@ fn sampling(args: &SimulateArgs, until: Until) -> Result<Sampling, InputError> {
 
 /// Refuses files that cannot be written, or not as what they are named, before the work begins.
 fn files(args: &SimulateArgs, in_plane: bool) -> Result<(), InputError> {
-    let all = [("--out", &args.out), ("--events", &args.events), ("--plot", &args.plot), ("--plot-path", &args.plot_path)];
+    let all =
+        [("--out", &args.out), ("--events", &args.events), ("--plot", &args.plot), ("--plot-path", &args.plot_path)];
     for (i, (flag, path)) in all.iter().enumerate() {
         let Some(path) = path else {
             continue;

@@ -49,8 +49,7 @@ pub fn body_path(observations: &Observations, parameters: &[f64], trajectory: &T
     let pair = |i: usize| columns.get(2 * i).zip(columns.get(2 * i + 1));
     let samples = &trajectory.samples;
     let (v_x, v_y) = pair(0)?;
-    let body: Vec<(f64, f64)> =
-        integral(&samples.t, v_x).into_iter().zip(integral(&samples.t, v_y)).collect();
+    let body: Vec<(f64, f64)> = integral(&samples.t, v_x).into_iter().zip(integral(&samples.t, v_y)).collect();
     let mut points = Vec::with_capacity(plane.points.len());
     for (i, point) in plane.points.iter().enumerate() {
         let (x, y) = pair(i + 1)?;

@@ -48,8 +48,6 @@ fn over(t: &[f64], v: &[f64], i: usize) -> f64 {
 
 /// The polynomial through the samples `nodes`, at `at`.
 fn interpolated(t: &[f64], v: &[f64], nodes: &[usize], at: f64) -> f64 {
-    let basis = |n: usize| -> f64 {
-        nodes.iter().filter(|m| **m != n).map(|&m| (at - t[m]) / (t[n] - t[m])).product()
-    };
+    let basis = |n: usize| -> f64 { nodes.iter().filter(|m| **m != n).map(|&m| (at - t[m]) / (t[n] - t[m])).product() };
     nodes.iter().map(|&n| v[n] * basis(n)).sum()
 }

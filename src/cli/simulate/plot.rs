@@ -6,6 +6,9 @@ use crate::picture::{self, Curve, Panel, Path, Places, Series, Stretches, label}
 use gaitc_compiler::front::si_unit;
 use gaitc_compiler::ir::{Joint, Observation};
 
+/// With more transitions than this none is drawn.
+const MOST_EVENTS: usize = 60;
+
 impl Report<'_> {
     /// Curves over time: of what was asked for (`chosen`), else of what the spec's drawing names, else of the states.
     pub(super) fn series(&self, chosen: bool) -> Series {
@@ -15,10 +18,14 @@ impl Report<'_> {
             (false, false) => drawing.iter().map(|panel| self.panel(panel, &self.along(panel))).collect(),
             (false, true) => self.state_panels(),
         };
-        let events = self.trajectory.events.iter().map(|event| picture::Event {
-            at: event.time,
-            label: self.transition(event.transition).to_owned(),
-        });
+        // More lines than this would be a grey area.
+        let few = self.trajectory.events.len() <= MOST_EVENTS;
+        let events = self
+            .trajectory
+            .events
+            .iter()
+            .filter(|_| few)
+            .map(|event| picture::Event { at: event.time, label: self.transition(event.transition).to_owned() });
         Series { title: self.title(), x: label("time", "s"), panels, events: events.collect() }
     }
 
@@ -29,7 +36,8 @@ impl Report<'_> {
             .iter()
             .filter(|point| point.held)
             .map(|point| {
-                let mut at: Vec<(f64, f64)> = self.ends_of_segments().filter_map(|i| point.at.get(i).copied()).collect();
+                let mut at: Vec<(f64, f64)> =
+                    self.ends_of_segments().filter_map(|i| point.at.get(i).copied()).collect();
                 at.retain(|place| place.0.is_finite());
                 at.dedup();
                 Places { name: point.name.clone(), at }
@@ -64,9 +72,8 @@ impl Report<'_> {
     /// First and last samples of segments.
     fn ends_of_segments(&self) -> impl Iterator<Item = usize> {
         let segment = &self.trajectory.samples.segment;
-        (0..segment.len()).filter(move |&i| {
-            i == 0 || segment.get(i - 1) != segment.get(i) || segment.get(i + 1) != segment.get(i)
-        })
+        (0..segment.len())
+            .filter(move |&i| i == 0 || segment.get(i - 1) != segment.get(i) || segment.get(i + 1) != segment.get(i))
     }
 
     fn along(&self, chosen: &[Observation]) -> Vec<Vec<f64>> {

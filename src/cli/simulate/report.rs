@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use crate::motion::BodyPath;
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Observation, State};
-use gaitc_runtime::return_map::Warning;
+use gaitc_runtime::return_map::{StopReason, Warning};
 use gaitc_runtime::trajectory::{Event, Trajectory, Until};
 use serde_json::{Map, Value, json};
 
@@ -75,7 +75,11 @@ impl Report<'_> {
         match (run.stop, self.until) {
             (None, _) => format!("{steps} step{} in {time}", plural(steps)),
             (Some(reason), Until::Crossings(asked)) => {
-                format!("stopped at {time}, after {steps} of {asked} step{}: {}", plural(asked), stops::explanation(reason).0)
+                format!(
+                    "stopped at {time}, after {steps} of {asked} step{}: {}",
+                    plural(asked),
+                    stops::explanation(reason).0
+                )
             }
             (Some(reason), Until::Time(asked)) => {
                 format!("stopped at {time} of {}: {}", format_quantity(asked, "s"), stops::explanation(reason).0)
@@ -103,9 +107,8 @@ impl Report<'_> {
     pub(super) fn json(&self) -> Value {
         let (run, spec) = (self.trajectory, &self.loaded.spec);
         let state = |values: &[f64]| named(self.state_names(), values);
-        let stopped = run.stop.map(|reason| {
-            json!({ "reason": stops::name(reason), "time": run.time, "state": state(&run.end) })
-        });
+        let stopped =
+            run.stop.map(|reason| json!({ "reason": stops::name(reason), "time": run.time, "state": state(&run.end) }));
         json!({
             "model": spec.name,
             "status": self.status(),
@@ -191,9 +194,19 @@ impl Report<'_> {
             text += &format!("warning: {warning}\n");
         }
         if let Some(reason) = self.trajectory.stop {
-            text += &format!("help: {}\n", stops::explanation(reason).1);
+            text += &format!("help: {}\n", self.help(reason));
         }
         text + "\n" + &self.steps_table()
+    }
+
+    fn help(&self, reason: StopReason) -> String {
+        let general = stops::explanation(reason).1;
+        if reason != StopReason::NoEvent {
+            return general.to_owned();
+        }
+        // Some seconds after the last step are enough to see what it does instead of the next one.
+        let last = self.trajectory.events.last().map_or(0.0, |event| event.time);
+        format!("see it fall: --time {}s --plot FILE.svg; or {general}", (last + 2.0).ceil())
     }
 
     /// One row a step, with the section's coordinates after it; without a section one row a transition, with all states.
@@ -209,7 +222,8 @@ impl Report<'_> {
         };
         let row = |first: [String; 4], values: &[f64]| [first.to_vec(), states(values)].concat();
         let seconds = |time: f64| format_quantity(time, "s");
-        let mut rows = vec![row(["0".to_owned(), seconds(0.0), String::new(), "start".to_owned()], &self.trajectory.start)];
+        let mut rows =
+            vec![row(["0".to_owned(), seconds(0.0), String::new(), "start".to_owned()], &self.trajectory.start)];
         let (mut since, mut passed) = (0.0, Vec::new());
         for event in &self.trajectory.events {
             passed.push(self.transition(event.transition));

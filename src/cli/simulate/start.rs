@@ -40,7 +40,8 @@ pub(super) fn of(
 ) -> Result<Result<Start, String>, InputError> {
     if !args.gait && !args.search.guess.is_empty() {
         return Err(InputError(
-            "--guess: this is where the search of --gait begins\n  help: add --gait, or start there (--from)".to_owned(),
+            "--guess: this is where the search of --gait begins\n  help: add --gait, or start there (--from)"
+                .to_owned(),
         ));
     }
     if args.gait {
@@ -96,7 +97,10 @@ fn gait(
     accuracy: Accuracy,
 ) -> Result<Result<Start, String>, InputError> {
     if !args.memory.is_empty() {
-        return Err(InputError("--memory: a gait starts with the memory of the spec\n  help: leave one of --memory and --gait out".to_owned()));
+        return Err(InputError(
+            "--memory: a gait starts with the memory of the spec\n  help: leave one of --memory and --gait out"
+                .to_owned(),
+        ));
     }
     let (guess, memory) = (inputs::guess(loaded, &args.search)?, loaded.memory());
     let request = GaitRequest::new(parameters, &memory);
@@ -114,7 +118,8 @@ fn state(loaded: &Loaded, args: &SimulateArgs) -> Result<Start, InputError> {
     let no_mode = || InputError(format!("model `{}` has no modes", spec.name));
     let Mode { name: in_mode, has_state, .. } = spec.modes.get(mode).ok_or_else(no_mode)?;
     let has = |i: usize| has_state.get(i).copied().unwrap_or(true);
-    let names: Vec<&str> = spec.states.iter().enumerate().filter(|(i, _)| has(*i)).map(|(_, s)| s.name.as_str()).collect();
+    let names: Vec<&str> =
+        spec.states.iter().enumerate().filter(|(i, _)| has(*i)).map(|(_, s)| s.name.as_str()).collect();
     let (mut values, mut seen) = (vec![0.0; spec.states.len()], Vec::new());
     for text in &args.state {
         let (name, quantity) = parse_assignment(text)?;
@@ -122,7 +127,8 @@ fn state(loaded: &Loaded, args: &SimulateArgs) -> Result<Start, InputError> {
             return Err(inputs::unknown("--state", "state", name, &names));
         };
         if !has(index) {
-            let help = format!("leave it out, or start in another mode (--mode); states of `{in_mode}`: {}", names.join(", "));
+            let help =
+                format!("leave it out, or start in another mode (--mode); states of `{in_mode}`: {}", names.join(", "));
             return Err(InputError(format!("--state: mode `{in_mode}` has no state `{name}`\n  help: {help}")));
         }
         inputs::once(&mut seen, "--state", name)?;
@@ -141,7 +147,9 @@ fn state(loaded: &Loaded, args: &SimulateArgs) -> Result<Start, InputError> {
         Some(text) => parse_quantity(text, Dimension::TIME)?,
     };
     if tau < 0.0 {
-        return Err(InputError("--tau: the time since the last transition is not negative, e.g. --tau 20ms".to_owned()));
+        return Err(InputError(
+            "--tau: the time since the last transition is not negative, e.g. --tau 20ms".to_owned(),
+        ));
     }
     Ok(Start::State { mode, state: values, tau })
 }

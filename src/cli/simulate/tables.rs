@@ -16,7 +16,12 @@ impl Report<'_> {
         ];
         for (m, memory) in self.loaded.spec.memory.iter().enumerate() {
             let count = |s: &usize| segments.get(*s).and_then(|segment| segment.memory.get(m)).map_or(0, whole);
-            columns.push(column(&memory.name, "", &memory.doc, Values::Integer(samples.segment.iter().map(count).collect())));
+            columns.push(column(
+                &memory.name,
+                "",
+                &memory.doc,
+                Values::Integer(samples.segment.iter().map(count).collect()),
+            ));
         }
         let width = self.states().len();
         let pick = |rows: &[f64], i: usize| rows.iter().skip(i).step_by(width.max(1)).copied().collect();
