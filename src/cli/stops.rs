@@ -19,7 +19,7 @@ pub(super) fn explanation(reason: StopReason) -> (&'static str, &'static str) {
     match reason {
         StopReason::NoEvent => (
             "no step ended within the time limit of 100 s: it fell, or came to rest",
-            "see what it does (--time 2s --plot FILE.svg), start elsewhere (--from, --gait), or set other parameters (--set)",
+            "start elsewhere (--from, --gait), or set other parameters (--set)",
         ),
         StopReason::StepLimit => (
             "the integration needs more steps than are allowed",

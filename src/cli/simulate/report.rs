@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use crate::motion::BodyPath;
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Observation, State};
-use gaitc_runtime::return_map::Warning;
+use gaitc_runtime::return_map::{StopReason, Warning};
 use gaitc_runtime::trajectory::{Event, Trajectory, Until};
 use serde_json::{Map, Value, json};
 
@@ -194,9 +194,19 @@ impl Report<'_> {
             text += &format!("warning: {warning}\n");
         }
         if let Some(reason) = self.trajectory.stop {
-            text += &format!("help: {}\n", stops::explanation(reason).1);
+            text += &format!("help: {}\n", self.help(reason));
         }
         text + "\n" + &self.steps_table()
+    }
+
+    fn help(&self, reason: StopReason) -> String {
+        let general = stops::explanation(reason).1;
+        if reason != StopReason::NoEvent {
+            return general.to_owned();
+        }
+        // Some seconds after the last step are enough to see what it does instead of the next one.
+        let last = self.trajectory.events.last().map_or(0.0, |event| event.time);
+        format!("see it fall: --time {}s --plot FILE.svg; or {general}", (last + 2.0).ceil())
     }
 
     /// One row a step, with the section's coordinates after it; without a section one row a transition, with all states.
