@@ -1,5 +1,6 @@
 //! A model as a LaTeX document that compiles by itself.
 
+use super::drawn::Drawing;
 use super::escape::latex;
 use super::lines::{aligned, row};
 use super::literal::{quantity_latex, unit_latex};
@@ -49,12 +50,16 @@ pub(super) fn page(sheet: &Sheet) -> String {
         let title = format!("Problem \\texttt{{{}}}{default}", latex(&problem.name));
         section(&mut page, &title, &self::problem(problem));
     }
-    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), |drawing| display(&drawing.latex())));
+    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), drawing));
     for published in &sheet.published {
         let body = paragraph(&published.source()) + &display(&published.latex());
         section(&mut page, &format!("Published: {}", latex(&published.name)), &body);
     }
     page + "\\end{document}\n"
+}
+
+fn drawing(drawing: &Drawing) -> String {
+    display(&drawing.latex()) + &drawing.said().map(|said| paragraph(&said)).collect::<String>()
 }
 
 fn section(page: &mut String, title: &str, body: &str) {

@@ -1,5 +1,6 @@
 //! A model in Markdown: tables, and formulas between `$$`.
 
+use super::drawn::Drawing;
 use super::escape::markdown;
 use super::lines::{aligned, row};
 use super::literal::quantity_latex;
@@ -34,12 +35,16 @@ pub(super) fn page(sheet: &Sheet) -> String {
         let default = if problem.default { " (default)" } else { "" };
         section(&mut page, &format!("Problem `{}`{default}", problem.name), &self::problem(problem));
     }
-    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), |drawing| display(&drawing.latex())));
+    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), drawing));
     for published in &sheet.published {
         let body = paragraph(&published.source()) + &display(&published.latex());
         section(&mut page, &format!("Published: {}", markdown(&published.name)), &body);
     }
     page
+}
+
+fn drawing(drawing: &Drawing) -> String {
+    display(&drawing.latex()) + &drawing.said().map(|said| paragraph(&said)).collect::<String>()
 }
 
 fn section(page: &mut String, title: &str, body: &str) {
