@@ -218,7 +218,7 @@ fn counts(args: &ContinueArgs) -> Result<(), InputError> {
     let longest = u32::try_from(args.doublings).ok().and_then(|n| args.period.checked_shl(n)).unwrap_or(usize::MAX);
     if args.doublings > 10 || longest > LONGEST_PERIOD {
         return Err(InputError(format!(
-            "--doublings {}: gaits of {} maps doubled so often are longer than {LONGEST_PERIOD} maps\n  help: give a smaller number",
+            "--doublings {}: period {} doubled so often is more than {LONGEST_PERIOD} maps\n  help: give a smaller number",
             args.doublings, args.period
         )));
     }
