@@ -12,7 +12,7 @@ mod verdict;
 use super::args::{Cli, OptimizeArgs};
 use super::{INTERRUPTED, InputError, Outcome, inputs};
 use crate::load::load;
-use crate::problem::{Start, assemble};
+use crate::problem::{Start, assemble, uncertain};
 use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve, solve_robust};
 use report::Report;
 
@@ -31,7 +31,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let (spec, problem) = request::problem(&loaded, args)?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
-    let uncertain = robust::uncertain(&loaded, args, &problem)?;
+    let uncertain = uncertain(&problem);
     let mut warnings = inputs::outside_range(&loaded, &parameters);
     warnings.extend(inputs::varies_outside(&loaded, &problem));
     let loose = robust::loose(&problem, &uncertain);
@@ -47,6 +47,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     };
     let start = Start { parameters, section: inputs::guess(&loaded, &args.search)?, settings };
     if args.trade.is_some() {
+        robust::no_trade(&problem)?;
         return trade::run(&loaded, (spec, problem), start, (args, cli.json), &warnings);
     }
     let assembled = assemble(&loaded, &spec, &problem, start);

@@ -3,6 +3,7 @@
 use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs};
 use crate::load::Loaded;
+use super::robust;
 use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
 use gaitc_compiler::ir::{Model, NodeId, Problem, Sense, Symbol, Vary};
 
@@ -23,6 +24,7 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
         problem.vary.retain(|v| v.parameter != parameter);
         problem.vary.push(Vary { parameter, lower, upper });
     }
+    robust::add(loaded, args, &mut problem)?;
     for text in &args.subject_to {
         problem.constraints.push(parse_constraint(&mut spec, text)?);
     }
@@ -74,6 +76,7 @@ fn fresh(spec: &mut Model, sense: Sense, text: &str) -> Result<Problem, InputErr
         objective_text: text.to_owned(),
         objective_dimension,
         vary: Vec::new(),
+        robust: Vec::new(),
         constraints: Vec::new(),
         period: 1,
     })

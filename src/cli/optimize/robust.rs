@@ -1,4 +1,4 @@
-//! `--robust NAME=LO..HI`: parameters that are only known to lie in ranges, and how the design does over these.
+//! `--robust NAME=LO..HI` and `robust` of a problem: parameters that are only known to lie in ranges, and how the design does over these.
 
 use super::report::Report;
 use crate::cli::args::OptimizeArgs;
@@ -6,13 +6,10 @@ use crate::cli::{InputError, inputs, output};
 use crate::load::Loaded;
 use crate::problem::fixed;
 use gaitc_compiler::front::flags::{parse_assignment, parse_range};
-use gaitc_compiler::front::{format_number, format_quantity, in_unit};
-use gaitc_compiler::ir::{Model, Problem, Vary};
+use gaitc_compiler::front::{MOST_ROBUST, format_number, format_quantity, in_unit};
+use gaitc_compiler::ir::{self, Model, Problem, Vary};
 use gaitc_runtime::optimize::{ActiveKind, RobustSolution, Scenario, Uncertain};
 use serde_json::{Value, json};
-
-/// More uncertain parameters than this have more scenarios than anybody would wait for.
-const MOST_UNCERTAIN: usize = 12;
 
 /// A robust result with what was uncertain.
 pub(super) struct Shown<'a> {
@@ -20,27 +17,45 @@ pub(super) struct Shown<'a> {
     pub(super) found: &'a RobustSolution,
 }
 
-/// The uncertain parameters of the flags.
-pub(super) fn uncertain(loaded: &Loaded, args: &OptimizeArgs, problem: &Problem) -> Result<Vec<Uncertain>, InputError> {
-    let mut uncertain = Vec::new();
+/// Adds the uncertain parameters of the flags to those of the problem; one that it has already gets the range of the flag.
+pub(super) fn add(loaded: &Loaded, args: &OptimizeArgs, problem: &mut Problem) -> Result<(), InputError> {
     let mut seen = Vec::new();
     for text in &args.robust {
         let (name, range) = parse_assignment(text)?;
         let parameter = inputs::parameter(loaded, "--robust", name)?;
         inputs::once(&mut seen, "--robust", name)?;
         let (lower, upper) = parse_range(range, loaded.spec.parameters[parameter].dimension)?;
-        if problem.vary.iter().any(|vary| vary.parameter == parameter) {
-            return Err(InputError(format!(
-                "--robust: `{name}` is varied, so it cannot be uncertain\n  help: leave it out of --robust, or state a problem \
-                 that does not vary it, with --maximize or --minimize and --vary"
-            )));
-        }
-        uncertain.push(Uncertain { parameter, lower, upper });
+        problem.robust.retain(|known| known.parameter != parameter);
+        problem.robust.push(ir::Uncertain { parameter, lower, upper });
     }
-    if uncertain.len() > MOST_UNCERTAIN {
-        return Err(InputError(format!("--robust: give at most {MOST_UNCERTAIN} parameters")));
+    let varied = |u: &&ir::Uncertain| problem.vary.iter().any(|vary| vary.parameter == u.parameter);
+    if let Some(both) = problem.robust.iter().find(varied) {
+        let name = &loaded.spec.parameters[both.parameter].name;
+        return Err(InputError(format!(
+            "`{name}` is varied, so it cannot be uncertain\n  help: leave it out of --vary or of --robust, or state a problem that \
+             does not vary it or is not robust over it, with --maximize or --minimize and --vary"
+        )));
     }
-    Ok(uncertain)
+    if problem.robust.len() > MOST_ROBUST {
+        return Err(InputError(format!(
+            "{} parameters are uncertain\n  help: give at most {MOST_ROBUST} to --robust and to the problem's `robust`, those that \
+             matter most: each needs scenarios of its own",
+            problem.robust.len()
+        )));
+    }
+    Ok(())
+}
+
+/// Refuses a trade-off under uncertainty.
+pub(super) fn no_trade(problem: &Problem) -> Result<(), InputError> {
+    if problem.robust.is_empty() {
+        return Ok(());
+    }
+    Err(InputError(format!(
+        "--trade: problem `{}` is robust, and trade-offs are for problems without uncertainty\n  help: name another problem with \
+         --problem, or state one with --maximize or --minimize and --vary",
+        problem.name
+    )))
 }
 
 /// The problem with all that is not the same for every machine among what varies.
@@ -63,7 +78,7 @@ pub(super) fn stability_bounds(
     };
     match loose.constraints.iter().find(moves) {
         Some(constraint) if !uncertain.is_empty() => Err(InputError(format!(
-            "--robust: the bound in `{}` is not the same for all machines\n  help: bound the spectral radius by a number, as in \
+            "the bound in `{}` is not the same for all machines\n  help: bound the spectral radius by a number, as in \
              `spectral_radius <= 0.95`",
             constraint.text
         ))),
