@@ -59,6 +59,10 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     };
     solution.notes.splice(0..0, warnings);
     if let Some(message) = conflict::message(&spec, &problem, &solution) {
+        let nominal = if robust.is_some() { "already without uncertainty: " } else { "" };
+        solution.message = format!("{nominal}{message}");
+    }
+    if let Some(message) = robust.as_ref().and_then(|found| robust::message(&spec, &problem, found)) {
         solution.message = message;
     }
     let robust = robust.as_ref().map(|found| robust::Shown { uncertain: &uncertain, found });

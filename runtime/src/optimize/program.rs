@@ -179,8 +179,12 @@ impl<'a> Program<'a> {
 
     /// The function that is optimised, and its name; `None` where that is the epigraph variable.
     pub(super) fn goal(&self) -> Option<(&str, &dyn Expression)> {
+        if self.worst() { None } else { self.target() }
+    }
+
+    /// The function that is optimised, or whose worst value over all scenes is; `None` for the spectral radius.
+    pub(super) fn target(&self) -> Option<(&str, &dyn Expression)> {
         match self.task.goal {
-            _ if self.worst() => None,
             Goal::Asked => match &self.problem.objective {
                 Objective::Expression(e) => Some(("the objective", e.as_ref())),
                 Objective::SpectralRadius => None,
@@ -196,7 +200,8 @@ impl<'a> Program<'a> {
     pub(super) fn reached(&self, point: &Point) -> bool {
         let Goal::Push(i) = self.task.goal else { return false };
         let settings = &self.problem.settings;
-        let holds = match self.goal() {
+        let holds = match self.target() {
+            // With several scenes f is that of the epigraph variable, which is no better than any of them.
             Some(_) => point.f <= 0.0,
             None => self.radius(Some(i), &point.u, (0, &point.map), &point.parameters).is_ok_and(|bound| {
                 let d = point.section.len();

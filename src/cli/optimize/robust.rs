@@ -1,5 +1,6 @@
 //! `--robust NAME=LO..HI` and `robust` of a problem: parameters that are only known to lie in ranges, and how the design does over these.
 
+use super::conflict::listed;
 use super::report::Report;
 use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs, output};
@@ -8,7 +9,7 @@ use crate::problem::fixed;
 use gaitc_compiler::front::flags::{parse_assignment, parse_range};
 use gaitc_compiler::front::{MOST_ROBUST, format_number, format_quantity, in_unit};
 use gaitc_compiler::ir::{self, Model, Problem, Vary};
-use gaitc_runtime::optimize::{ActiveKind, RobustSolution, Scenario, Uncertain};
+use gaitc_runtime::optimize::{ActiveKind, InTheWay, RobustSolution, Scenario, Uncertain};
 use serde_json::{Value, json};
 
 /// A robust result with what was uncertain.
@@ -86,6 +87,29 @@ pub(super) fn stability_bounds(
     }
 }
 
+/// The message of a robust problem without a design for all machines; `None` where nothing is known to be in the way.
+pub(super) fn message(spec: &Model, problem: &Problem, found: &RobustSolution) -> Option<String> {
+    let in_the_way = found.in_the_way.as_ref()?;
+    let report = Report { spec, problem, solution: &found.solution, robust: None };
+    let text = |i: &usize| format!("`{}`", problem.constraints[*i].text);
+    let machine = problem.robust.iter().zip(&in_the_way.values).map(|(u, value)| {
+        let parameter = &spec.parameters[u.parameter];
+        format!("{} = {}", parameter.name, format_quantity(*value, &parameter.unit))
+    });
+    let kept = match in_the_way.limits.iter().map(text).collect::<Vec<_>>() {
+        none if none.is_empty() => String::new(),
+        limits => format!(" where {} hold{} for all", listed(&limits), if limits.len() == 1 { "s" } else { "" }),
+    };
+    Some(format!(
+        "{} cannot hold for all machines with one design for {}: for {} {}{kept} (found by searches, which is not a proof); relax \
+         it, narrow the uncertain ranges, or widen the ranges",
+        text(&in_the_way.reached.constraint),
+        listed(&report.ranges()),
+        machine.collect::<Vec<_>>().join(", "),
+        report.best_text(&in_the_way.reached),
+    ))
+}
+
 impl Report<'_> {
     /// Scenarios and what was found inside the box; null for a problem without uncertainty.
     pub(super) fn robust_json(&self) -> Value {
@@ -111,6 +135,14 @@ impl Report<'_> {
         };
         let exception =
             |e: &gaitc_runtime::optimize::Exception| json!({ "parameters": values(&e.values), "what": e.what });
+        let in_the_way = |way: &InTheWay| {
+            let texts = way.limits.iter().map(|i| self.constraint(ActiveKind::Constraint(*i)));
+            json!({
+                "parameters": values(&way.values),
+                "reached": self.one_reached_json(&way.reached),
+                "limits": texts.collect::<Vec<_>>(),
+            })
+        };
         json!({
             "ranges": uncertain.iter().map(|u| (name(u), json!([u.lower, u.upper]))).collect::<serde_json::Map<_, _>>(),
             "nominal": found.nominal,
@@ -118,6 +150,7 @@ impl Report<'_> {
             "checked": found.checked,
             "rounds": found.rounds,
             "exceptions": found.exceptions.iter().map(exception).collect::<Vec<_>>(),
+            "in_the_way": found.in_the_way.as_ref().map(in_the_way),
         })
     }
 

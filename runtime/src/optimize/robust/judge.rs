@@ -198,7 +198,7 @@ fn confirm_one(robust: &Robust<'_>, one: &Stands, nominal: &[f64]) -> Result<Con
 pub(super) fn scenarios(robust: &Robust<'_>, found: &Found<'_>) -> Vec<Scenario> {
     let Ok(all) = stands(robust, found) else { return Vec::new() };
     let (program, ended) = (&found.program, &found.ended);
-    let converged = matches!(ended.end, End::Converged | End::Acceptable);
+    let converged = super::converged(found);
     let least = significant(program, ended);
     let one = |(s, (scene, stands)): (usize, (&super::Scene, Stands))| {
         let (mut limits, mut worst) = (Vec::new(), false);
