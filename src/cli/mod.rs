@@ -15,6 +15,7 @@ mod output;
 mod schema;
 mod show;
 mod verify;
+mod whole;
 
 use args::{Cli, Command};
 use clap::Parser;

@@ -18,6 +18,8 @@ use report::Report;
 
 /// More starts than this tell nothing new and would run for days.
 const MOST_STARTS: usize = 100_000;
+/// More maps than this would run for weeks.
+const MOST_WORK: usize = 1_000_000_000;
 /// More threads than this only wait for each other.
 const MOST_THREADS: usize = 1024;
 
@@ -27,6 +29,9 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     }
     if let Some(threads) = args.threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
         return Err(InputError(format!("--threads {threads}: give a number from 1 to {MOST_THREADS}")));
+    }
+    if !(1..=MOST_WORK).contains(&args.work) {
+        return Err(InputError(format!("--work {}: give a number from 1 to {MOST_WORK}", args.work)));
     }
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let (spec, problem) = request::problem(&loaded, args)?;
@@ -42,6 +47,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
         starts: args.starts,
         seed: args.seed,
         threads: args.threads.unwrap_or(0),
+        work: args.work,
         interrupt: on_interrupt(),
         ..Settings::default()
     };

@@ -108,7 +108,7 @@ fn from_all_starts(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
                 solution.status = Status::Interrupted;
                 solution.message = "interrupted before any gait was found".to_owned();
             } else {
-                solution.notes.push(message::nowhere(starts::RESCUES));
+                solution.notes.push(message::nowhere(starts::rescues(problem)));
             }
             solution.starts.run = 1;
             return Ok(solution);

@@ -96,6 +96,9 @@ pub struct Settings {
     pub feasibility: f64,
     /// Most iterations of one start.
     pub max_iterations: usize,
+    /// Most single maps of one search (a gait of k maps takes k, for each machine of a robust problem): a search that needs more
+    /// ends with its best gait so far.
+    pub work: usize,
     /// How many starts; the first is the given one, the others fill the ranges evenly.
     pub starts: usize,
     /// Chooses the further starts.
@@ -117,6 +120,7 @@ impl Default for Settings {
             optimality: 1e-7,
             feasibility: 1e-10,
             max_iterations: 200,
+            work: 100_000,
             starts: 1,
             seed: 0,
             threads: 0,
@@ -332,6 +336,7 @@ impl Settings {
             ("feasibility", tolerance(self.feasibility), "must lie between 0 and 1, such as 1e-10"),
             ("trust_radius", tolerance(self.trust_radius), "must lie between 0 and 1, such as 0.25"),
             ("max_iterations", self.max_iterations > 0, "must be at least 1"),
+            ("work", self.work > 0, "must be at least 1"),
             ("starts", (1..=100_000).contains(&self.starts), "must be between 1 and 100000"),
             ("threads", self.threads <= 1024, "must be at most 1024"),
         ];

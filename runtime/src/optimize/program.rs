@@ -18,6 +18,7 @@ use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Why there are no values or derivatives at a point.
 #[derive(Clone, Debug)]
@@ -72,6 +73,8 @@ pub(super) struct Program<'a> {
     references: Vec<f64>,
     /// Objective in SI units = sign * scale * f.
     pub(super) objective_scale: f64,
+    /// Single maps so far, each with its sensitivities.
+    worked: AtomicUsize,
 }
 
 impl<'a> Program<'a> {
@@ -107,6 +110,7 @@ impl<'a> Program<'a> {
             epigraph_start: 0.0,
             references: vec![1.0; problem.constraints.len()],
             objective_scale: 1.0,
+            worked: AtomicUsize::new(0),
         };
         let map = program.map(parameters, section)?;
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
@@ -135,7 +139,14 @@ impl<'a> Program<'a> {
             epigraph_start: self.epigraph_start,
             references: self.references.clone(),
             objective_scale: self.objective_scale,
+            worked: AtomicUsize::new(0),
         }
+    }
+
+    /// Whether the search has used up the work that it may do.
+    pub(super) fn exhausted(&self) -> bool {
+        let most = self.problem.settings.work.saturating_mul(self.scenes.len());
+        self.worked.load(Ordering::Relaxed) >= most
     }
 
     fn set_references(&mut self, parameters: &[f64], map: &MapResult) -> Result<(), Failure> {
@@ -249,6 +260,7 @@ impl<'a> Program<'a> {
         sensitivity: Sensitivity<'_>,
         measures: bool,
     ) -> Result<MapResult, Failure> {
+        self.worked.fetch_add(self.problem.period, Ordering::Relaxed);
         let outcome = self.problem.map.evaluate(&MapRequest {
             coordinates: section,
             parameters,

@@ -180,7 +180,7 @@ impl<'p> Robust<'p> {
     /// the constraint that is in the way of such a design.
     fn solved(&self, scenes: &[Scene], from: &Design) -> Result<Result<Found<'p>, String>, ProblemError> {
         let first = self.search(scenes, &from.parameters, &from.section)?;
-        let settled = |found: &Found<'_>| converged(found) || found.ended.end == End::Unbounded;
+        let settled = |found: &Found<'_>| converged(found) || matches!(found.ended.end, End::Unbounded | End::Exhausted);
         let none = self.problem.constraints.is_empty() || self.problem.settings.interrupt.requested();
         if none || first.as_ref().is_ok_and(settled) {
             return Ok(first);

@@ -26,6 +26,9 @@ const ROUNDING_OF_RANGE: f64 = 1e-12;
 const NEXT_TO: f64 = 1e-6;
 const FAR: f64 = 1e-2;
 
+/// A smallest spectral radius below this is where the search stops (1e-5 of the first one), or what rounding leaves of zero.
+const NO_MORE: f64 = 1e-5;
+
 /// A verdict and how good it is: lower is better.
 pub(super) struct Verdict {
     pub(super) solution: Solution,
@@ -120,6 +123,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         End::Reached => Status::Stalled,
         End::Unbounded => Status::Unbounded,
         End::IterationLimit => Status::IterationLimit,
+        End::Exhausted => Status::WorkLimit,
         End::Stalled => Status::Stalled,
         End::Subproblem(_) => Status::SubproblemFailed,
     };
@@ -148,6 +152,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
             solution.kkt_residual
         ));
     }
+    solution.notes.extend(deadbeat(problem, solution));
     if let Some(kink) = &solution.kink {
         solution.notes.push(message::kink(kink));
     }
@@ -156,8 +161,18 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         Some((parameter, bound)) if solution.status == Status::Unconfirmed => {
             message::range_too_wide(problem, parameter, solution.parameters[parameter], bound)
         }
-        _ => message::message(problem, solution, &detail),
+        _ => match &ended.refused {
+            Some(stop) if solution.status == Status::Stalled => message::refused(solution, stop, &detail),
+            _ => message::message(problem, solution, &detail),
+        },
     };
+}
+
+/// The note on a smallest spectral radius that is none but for rounding.
+pub(super) fn deadbeat(problem: &Problem<'_>, solution: &Solution) -> Option<String> {
+    let radius = solution.spectral_radius;
+    let minimised = matches!(problem.objective, Objective::SpectralRadius);
+    (minimised && solution.status == Status::Optimal && radius <= NO_MORE).then(|| message::deadbeat(radius))
 }
 
 /// A varied parameter that is next to a bound in units of its range, but not in its own size, and the bound: in a range of

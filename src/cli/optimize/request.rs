@@ -5,6 +5,7 @@ use crate::cli::{InputError, inputs};
 use crate::load::Loaded;
 use super::robust;
 use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
+use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Model, NodeId, Problem, Sense, Symbol, Vary};
 
 /// The problem, and the spec with the expressions that the flags added.
@@ -37,6 +38,18 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
             "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'"
                 .to_owned(),
         ));
+    }
+    if let [vary, others @ ..] = problem.vary.as_slice()
+        && problem.vary.iter().all(|vary| vary.lower >= vary.upper)
+    {
+        let parameter = &spec.parameters[vary.parameter];
+        let value = format_quantity(vary.lower, &parameter.unit);
+        let whose = if others.is_empty() { "the range" } else { "every range" };
+        return Err(InputError(format!(
+            "nothing to vary: {whose} is a single value, such as `{0}` = {value}\n  help: widen one, e.g. --vary '{0}=LO..HI', or \
+             look at this gait with `gaitc gait {1} --set '{0}={value}'`",
+            parameter.name, spec.name
+        )));
     }
     if args.trade.is_none() {
         depends_on_what_varies(&spec, &problem, problem.objective, &problem.objective_text)?;

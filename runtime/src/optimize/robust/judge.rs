@@ -62,6 +62,7 @@ pub(super) fn judged(robust: &Robust<'_>, found: &mut Found<'_>) -> Result<Solut
         End::Interrupted => Status::Interrupted,
         End::Unbounded => Status::Unbounded,
         End::IterationLimit => Status::IterationLimit,
+        End::Exhausted => Status::WorkLimit,
         End::Stalled | End::Reached => Status::Stalled,
         End::Subproblem(_) => Status::SubproblemFailed,
     };
@@ -116,7 +117,11 @@ pub(super) fn judged(robust: &Robust<'_>, found: &mut Found<'_>) -> Result<Solut
             return Ok(solution);
         }
     }
-    solution.message = message::message(robust.problem, &solution, &detail);
+    solution.notes.extend(verdict::deadbeat(robust.problem, &solution));
+    solution.message = match &ended.refused {
+        Some(stop) if solution.status == Status::Stalled => message::refused(&solution, stop, &detail),
+        _ => message::message(robust.problem, &solution, &detail),
+    };
     Ok(solution)
 }
 

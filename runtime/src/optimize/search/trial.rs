@@ -57,6 +57,9 @@ impl Search<'_, '_> {
             Some(point) if ratio > 1e-4 => self.accept(point, &step.multipliers)?,
             _ => false,
         };
+        if moved {
+            self.refused.take();
+        }
         if !moved {
             self.radius = 0.25 * f64::min(self.radius, length);
         } else if ratio < 0.25 {
@@ -91,7 +94,12 @@ impl Search<'_, '_> {
                 Ok((same && within(ANOTHER_KIND, self.began.map.duration, after)).then_some(point))
             }
             Err(Failure::Wrong(error)) => Err(error),
-            Err(_) => Ok(None),
+            Err(failure) => {
+                if let Failure::Stopped(stop) = failure {
+                    self.refused.replace(Some(stop));
+                }
+                Ok(None)
+            }
         }
     }
 
