@@ -94,7 +94,11 @@ pub(super) fn order(problem: &Problem<'_>, a: &Verdict, b: &Verdict) -> Ordering
         Status::Optimal => 0,
         Status::Unbounded => 1,
         Status::Unconfirmed | Status::Saddle => 2,
-        Status::Interrupted | Status::IterationLimit | Status::WorkLimit | Status::Stalled | Status::SubproblemFailed => 3,
+        Status::Interrupted
+        | Status::IterationLimit
+        | Status::WorkLimit
+        | Status::Stalled
+        | Status::SubproblemFailed => 3,
         Status::Infeasible | Status::InfeasibleLocally => 4,
         Status::Undefined => 5,
         Status::NoGait => 6,

@@ -243,7 +243,8 @@ mod tests {
     fn what_a_map_leaves_nothing_of_is_not_measured() {
         let jacobian = dmatrix![1e-9, 0.0; 0.0, 1e-9];
         let tiny = stationary(&jacobian, &DMatrix::identity(2, 2)).expect("stable");
-        let found = compare(&jacobian, &tiny, &dmatrix![1e-12, 0.0; 0.0, 1e-12], (1.0, MAPS)).expect("nothing to compare");
+        let found =
+            compare(&jacobian, &tiny, &dmatrix![1e-12, 0.0; 0.0, 1e-12], (1.0, MAPS)).expect("nothing to compare");
         assert_eq!((found.spread, found.sampling), (0.0, 0.0));
     }
 }

@@ -46,6 +46,7 @@ mod search;
 mod second_order;
 mod sobol;
 mod solution;
+mod solver;
 mod standing;
 mod starts;
 mod stepper;
@@ -67,6 +68,7 @@ pub use solution::{
     Active, ActiveKind, Confirmation, Curvature, Disturbed, Independent, Kink, Route, Sensitivity, Shape, Solution,
     Starts, Status,
 };
+pub use solver::{Clarabel, Counts, Tally};
 pub use trade::{Aim, Curve, Family, Gap, Origin, TradeOutcome, TradePoint, trade};
 
 use attempt::{Attempt, attempt, goes_on};

@@ -4,6 +4,7 @@
 //! lower <= p_j <= upper, margins >= 0 and `spectral_radius <= r`.
 
 use super::interrupt::Interrupt;
+use super::solver::{Clarabel, Tally};
 use crate::return_map::{Accuracy, RequestError, ReturnMap};
 use thiserror::Error;
 
@@ -111,6 +112,10 @@ pub struct Settings {
     pub long_tests: bool,
     /// Ends the optimisation early, with the best gait so far.
     pub interrupt: Interrupt,
+    /// How Clarabel solves the subproblems.
+    pub clarabel: Clarabel,
+    /// Counts what Clarabel does.
+    pub tally: Tally,
 }
 
 impl Default for Settings {
@@ -127,6 +132,8 @@ impl Default for Settings {
             trust_radius: 0.25,
             long_tests: true,
             interrupt: Interrupt::default(),
+            clarabel: Clarabel::USED,
+            tally: Tally::default(),
         }
     }
 }

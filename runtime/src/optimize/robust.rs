@@ -123,7 +123,15 @@ pub fn solve_robust(mut problem: Problem<'_>, uncertain: &[Uncertain]) -> Result
 fn without(mut solution: Solution, message: impl Fn(&str) -> String) -> RobustSolution {
     solution.message = message(&solution.message);
     let nominal = solution.objective;
-    RobustSolution { solution, scenarios: Vec::new(), nominal, checked: 0, rounds: 0, exceptions: Vec::new(), in_the_way: None }
+    RobustSolution {
+        solution,
+        scenarios: Vec::new(),
+        nominal,
+        checked: 0,
+        rounds: 0,
+        exceptions: Vec::new(),
+        in_the_way: None,
+    }
 }
 
 /// A robust problem that is being solved.
@@ -180,7 +188,8 @@ impl<'p> Robust<'p> {
     /// the constraint that is in the way of such a design.
     fn solved(&self, scenes: &[Scene], from: &Design) -> Result<Result<Found<'p>, String>, ProblemError> {
         let first = self.search(scenes, &from.parameters, &from.section)?;
-        let settled = |found: &Found<'_>| converged(found) || matches!(found.ended.end, End::Unbounded | End::Exhausted);
+        let settled =
+            |found: &Found<'_>| converged(found) || matches!(found.ended.end, End::Unbounded | End::Exhausted);
         let none = self.problem.constraints.is_empty() || self.problem.settings.interrupt.requested();
         if none || first.as_ref().is_ok_and(settled) {
             return Ok(first);

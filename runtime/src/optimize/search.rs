@@ -292,6 +292,8 @@ impl Search<'_, '_> {
             radius: self.radius,
             penalty: self.penalty,
             tie: self.tie,
+            clarabel: &self.program.problem.settings.clarabel,
+            tally: &self.program.problem.settings.tally,
         }
     }
 

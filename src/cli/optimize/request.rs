@@ -1,9 +1,9 @@
 //! Which problem the flags ask for: the spec's default, a named one with additions, or one made of flags alone.
 
+use super::robust;
 use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs};
 use crate::load::Loaded;
-use super::robust;
 use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Model, NodeId, Problem, Sense, Symbol, Vary};
@@ -44,9 +44,10 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
     {
         let parameter = &spec.parameters[vary.parameter];
         let value = format_quantity(vary.lower, &parameter.unit);
-        let whose = if others.is_empty() { "the range" } else { "every range" };
+        let whose =
+            if others.is_empty() { "the range is a single value," } else { "every range is a single value, such as" };
         return Err(InputError(format!(
-            "nothing to vary: {whose} is a single value, such as `{0}` = {value}\n  help: widen one, e.g. --vary '{0}=LO..HI', or \
+            "nothing to vary: {whose} `{0}` = {value}\n  help: widen one, e.g. --vary '{0}=LO..HI', or \
              look at this gait with `gaitc gait {1} --set '{0}={value}'`",
             parameter.name, spec.name
         )));

@@ -78,7 +78,8 @@ impl Lowering<'_> {
         if let Some(varied) = vary.iter().find(|varied| varied.name == item.name) {
             let message = format!("`{}` is both varied and uncertain", item.name);
             let error = Diagnostic::error(Code::ProblemForm, message).at(item.span, "").see(varied.span, "varied here");
-            self.diagnostics.push(error.help("a designer chooses it, or does not know it: leave it out of one of the two"));
+            self.diagnostics
+                .push(error.help("a designer chooses it, or does not know it: leave it out of one of the two"));
             return None;
         }
         let (parameter, lower, upper) = range?;
@@ -98,7 +99,8 @@ impl Lowering<'_> {
         };
         for (constraint, equation) in problem.constraints.iter().zip(subject_to) {
             if constraint.stability_bound.is_some_and(|bound| self.model.graph.depends(&[bound], moves)) {
-                let message = "in a robust problem the bound on `spectral_radius` is the same for all machines and designs";
+                let message =
+                    "in a robust problem the bound on `spectral_radius` is the same for all machines and designs";
                 let error = Diagnostic::error(Code::ProblemForm, message).at(self.root_span(equation), "");
                 self.diagnostics.push(error.help("bound it by a number, as in `spectral_radius <= 0.95`"));
             }

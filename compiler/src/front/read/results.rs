@@ -150,5 +150,7 @@ fn intervals(fields: &Fields<'_>, key: &str, example: &str, sink: &mut Sink<'_>)
 }
 
 fn is_empty_table(fields: &Fields<'_>, key: &str) -> bool {
-    fields.get(key).is_some_and(|entry| matches!(&entry.value.kind, ValueKind::Table(entries) if entries.entries.is_empty()))
+    fields
+        .get(key)
+        .is_some_and(|entry| matches!(&entry.value.kind, ValueKind::Table(entries) if entries.entries.is_empty()))
 }

@@ -139,7 +139,12 @@ impl Report<'_, '_> {
         text += &format!("\n{}", output::table(&header, rows));
         for Gap { bound, solution } in &curve.gaps {
             if let Some(solution) = solution {
-                text += &format!("no optimum at {} = {}: {}\n", b.text, b.show(*bound), self.trade.message(Aim::Bounded(*bound), solution));
+                text += &format!(
+                    "no optimum at {} = {}: {}\n",
+                    b.text,
+                    b.show(*bound),
+                    self.trade.message(Aim::Bounded(*bound), solution)
+                );
             }
         }
         text + &format!("slope: of {} per unit of {}\n", a.label(), b.label())
