@@ -24,6 +24,7 @@ mod critical_cone;
 mod disturbed;
 mod envelope;
 mod escape;
+mod factors;
 mod gait;
 mod independent;
 mod interrupt;

@@ -7,11 +7,12 @@
 //! Jacobians of all scenes are stacked, the rows of each scene follow each other, and the objective is the worst of all.
 
 use super::characteristic::Characteristic;
+use super::factors::Groups;
 use super::jury;
 use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 pub(super) use super::rows::Row;
-use super::rows::rows;
+use super::rows::{rows, slots};
 use super::scene::{Scene, stacked};
 use super::task::{Goal, Task};
 use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
@@ -19,6 +20,10 @@ use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::{DMatrix, DVector};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// The value of a row that there is room for, and no factor.
+const NO_ROW: f64 = 1.0;
 
 /// Why there are no values or derivatives at a point.
 #[derive(Clone, Debug)]
@@ -52,6 +57,8 @@ pub(super) struct Point {
     pub(super) h: DVector<f64>,
     /// Scaled inequalities.
     pub(super) c: DVector<f64>,
+    /// The multipliers of each block of Jury rows in groups; empty where these do not matter.
+    pub(super) groups: Vec<Groups>,
 }
 
 /// The nonlinear program.
@@ -73,6 +80,8 @@ pub(super) struct Program<'a> {
     references: Vec<f64>,
     /// Objective in SI units = sign * scale * f.
     pub(super) objective_scale: f64,
+    /// The groups of multipliers whose factors have the Jury rows; empty for all in one.
+    groups: Mutex<Vec<Groups>>,
     /// Single maps so far, each with its sensitivities.
     worked: AtomicUsize,
 }
@@ -110,6 +119,7 @@ impl<'a> Program<'a> {
             epigraph_start: 0.0,
             references: vec![1.0; problem.constraints.len()],
             objective_scale: 1.0,
+            groups: Mutex::default(),
             worked: AtomicUsize::new(0),
         };
         let map = program.map(parameters, section)?;
@@ -139,6 +149,7 @@ impl<'a> Program<'a> {
             epigraph_start: self.epigraph_start,
             references: self.references.clone(),
             objective_scale: self.objective_scale,
+            groups: Mutex::new(self.groups()),
             worked: AtomicUsize::new(0),
         }
     }
@@ -298,6 +309,18 @@ impl<'a> Program<'a> {
         let parameters = self.variables.parameters(u.as_slice(), &self.base);
         let section = self.variables.section(u.as_slice());
         let map = self.map(&parameters, &section)?;
+        self.at(u, (parameters, section), map, &self.groups())
+    }
+
+    /// All values at u, whose map is known, with the Jury rows of the factors that belong to groups near here.
+    fn at(
+        &self,
+        u: &DVector<f64>,
+        (parameters, section): (Vec<f64>, Vec<f64>),
+        map: MapResult,
+        near: &[Groups],
+    ) -> Result<Point, Failure> {
+        let mut groups = Vec::new();
         let f = self.sign() * self.objective(u, &map, &parameters)? / self.objective_scale;
         let h = DVector::from_fn(section.len(), |i, _| (map.coordinates[i] - section[i]) / self.variables.nominal[i]);
         let mut c = Vec::with_capacity(self.rows.len());
@@ -315,13 +338,60 @@ impl<'a> Program<'a> {
                 // All rows of a block at once, when its first comes.
                 Row::Jury(of, 0) => {
                     let radius = self.radius(of, u, (scene, &map), &parameters)?.value;
-                    let p = self.characteristic(of, scene, &map);
-                    c.extend(jury::rows(&p.coefficients, radius).iter().map(|row| row.value));
+                    let p = self.characteristic(of, scene, &map).coefficients;
+                    let first = c.len();
+                    if Groups::matter(self.problem.start.len()) {
+                        let here = self.grouped((of, scene), &map, near.get(groups.len()))?;
+                        let rows = here.factors(&p).into_iter().flat_map(|f| jury::rows(&f.coefficients, radius));
+                        c.extend(rows.map(|row| row.value));
+                        groups.push(here);
+                    } else {
+                        c.extend(jury::rows(&p, radius).iter().map(|row| row.value));
+                    }
+                    c.resize(first + slots(self.problem.start.len()), NO_ROW);
                 }
                 Row::Jury(..) => {}
             }
         }
-        Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c) })
+        Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c), groups })
+    }
+
+    /// The multipliers of a scene in groups, those nearby if there are any.
+    fn grouped(
+        &self,
+        (of, scene): (Option<usize>, usize),
+        map: &MapResult,
+        near: Option<&Groups>,
+    ) -> Result<Groups, Failure> {
+        let roots = multipliers(&(self.own(scene, &self.scaled_jacobian(&map.jacobian)) / self.reference(of)));
+        match near {
+            None => Ok(Groups::whole(&roots)),
+            Some(near) => {
+                near.followed(&roots).ok_or_else(|| Failure::NotFinite("the order of the multipliers".to_owned()))
+            }
+        }
+    }
+
+    fn groups(&self) -> Vec<Groups> {
+        self.groups.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// From here on the Jury rows are those of the factors of this point; without a point, of the whole polynomials.
+    pub(super) fn adopt(&self, point: Option<&Point>) {
+        let groups = point.map_or_else(Vec::new, |point| point.groups.clone());
+        *self.groups.lock().unwrap_or_else(PoisonError::into_inner) = groups;
+    }
+
+    /// The point with groups of multipliers that are right for it, which are adopted; and whether they are others than before.
+    pub(super) fn settled(&self, point: Point) -> Result<(Point, bool), Failure> {
+        let groups: Vec<Groups> = point.groups.iter().map(Groups::settled).collect();
+        let others = groups != point.groups;
+        let point = match others {
+            true => self.at(&point.u, (point.parameters, point.section), point.map, &groups)?,
+            false => point,
+        };
+        self.adopt(Some(&point));
+        Ok((point, others))
     }
 
     /// Objective in SI units.

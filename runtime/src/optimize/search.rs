@@ -108,6 +108,7 @@ enum Progress {
 /// # Errors
 /// When the start has no derivatives, or for a problem that turns out to be wrong as stated.
 pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failure> {
+    let (start, _) = program.settled(start)?;
     let lin = program.linearise_to(&start, true)?;
     let settings = &program.problem.settings;
     let mut search = Search {
@@ -162,6 +163,7 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         search.refine_derivatives().map_err(Failure::Wrong)?;
         search.retie(&mut multipliers);
     }
+    program.adopt(Some(&search.point));
     let refused = search.refused.into_inner();
     Ok(Ended { end, point: search.point, lin: search.lin, multipliers, iterations, refused })
 }

@@ -26,7 +26,7 @@ const ROUNDING_OF_RANGE: f64 = 1e-12;
 const NEXT_TO: f64 = 1e-6;
 const FAR: f64 = 1e-2;
 
-/// A smallest spectral radius below this is where the search stops (1e-5 of the first one), or what rounding leaves of zero.
+/// A smallest spectral radius below this is none.
 const NO_MORE: f64 = 1e-5;
 
 /// A verdict and how good it is: lower is better.
@@ -152,7 +152,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
             solution.kkt_residual
         ));
     }
-    solution.notes.extend(deadbeat(problem, solution));
+    solution.notes.extend(deadbeat(program, &ended.point, solution));
     if let Some(kink) = &solution.kink {
         solution.notes.push(message::kink(kink));
     }
@@ -168,11 +168,13 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
     };
 }
 
-/// The note on a smallest spectral radius that is none but for rounding.
-pub(super) fn deadbeat(problem: &Problem<'_>, solution: &Solution) -> Option<String> {
+/// The note on a smallest spectral radius that is none but for rounding: where the search stopped at the least that it looks for.
+pub(super) fn deadbeat(program: &Program<'_>, point: &Point, solution: &Solution) -> Option<String> {
+    let variables = &program.variables;
+    let minimised = matches!(program.problem.objective, Objective::SpectralRadius);
+    let least = variables.epigraph_at().is_some_and(|at| point.u[at] <= 1.01 * variables.floor);
     let radius = solution.spectral_radius;
-    let minimised = matches!(problem.objective, Objective::SpectralRadius);
-    (minimised && solution.status == Status::Optimal && radius <= NO_MORE).then(|| message::deadbeat(radius))
+    (minimised && solution.status == Status::Optimal && (least || radius <= NO_MORE)).then(|| message::deadbeat(radius))
 }
 
 /// A varied parameter that is next to a bound in units of its range, but not in its own size, and the bound: in a range of
@@ -338,5 +340,6 @@ pub(super) fn without_values(status: Status, message: String, parameters: Vec<f6
 
 /// The search's starting point as a point of the program.
 pub(super) fn starting_point(program: &Program<'_>, parameters: &[f64], section: &[f64]) -> Result<Point, Failure> {
+    program.adopt(None);
     program.evaluate(&DVector::from_vec(program.variables.pack(parameters, section, program.epigraph_start)))
 }
