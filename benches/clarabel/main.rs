@@ -29,7 +29,8 @@ fn variants() -> Vec<(&'static str, Clarabel)> {
     let used = || Clarabel::USED;
     vec![
         ("in use", used()),
-        ("tolerance 1e-8 (Clarabel's own)", Clarabel { tolerance: 1e-8, ..used() }),
+        ("tolerance 1e-6", Clarabel { tolerance: 1e-6, ..used() }),
+        ("tolerance 1e-10", Clarabel { tolerance: 1e-10, ..used() }),
         ("tolerance 1e-12", Clarabel { tolerance: 1e-12, ..used() }),
         ("no equilibration", Clarabel { equilibrate: false, ..used() }),
         ("static regularisation 1e-6", Clarabel { static_regularisation: 1e-6, ..used() }),

@@ -48,6 +48,7 @@ mod second_order;
 mod sobol;
 mod solution;
 mod solver;
+mod spectrum;
 mod standing;
 mod starts;
 mod stepper;

@@ -6,7 +6,6 @@
 //! A robust problem has several scenes (module `scene`): one design, and in each scene a gait of its own. Coordinates, measures and
 //! Jacobians of all scenes are stacked, the rows of each scene follow each other, and the objective is the worst of all.
 
-use super::characteristic::Characteristic;
 use super::factors::Groups;
 use super::jury;
 use super::kkt::infeasibility;
@@ -18,9 +17,9 @@ use super::task::{Goal, Task};
 use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// The value of a row that there is room for, and no factor.
 const NO_ROW: f64 = 1.0;
@@ -77,11 +76,11 @@ pub(super) struct Program<'a> {
     /// The epigraph variable at the start, SI units.
     pub(super) epigraph_start: f64,
     /// Reference radius of each constraint's Jury rows (1 for margins).
-    references: Vec<f64>,
+    pub(super) references: Vec<f64>,
     /// Objective in SI units = sign * scale * f.
     pub(super) objective_scale: f64,
     /// The groups of multipliers whose factors have the Jury rows; empty for all in one.
-    groups: Mutex<Vec<Groups>>,
+    pub(super) groups: Mutex<Vec<Groups>>,
     /// Single maps so far, each with its sensitivities.
     worked: AtomicUsize,
 }
@@ -313,7 +312,7 @@ impl<'a> Program<'a> {
     }
 
     /// All values at u, whose map is known, with the Jury rows of the factors that belong to groups near here.
-    fn at(
+    pub(super) fn at(
         &self,
         u: &DVector<f64>,
         (parameters, section): (Vec<f64>, Vec<f64>),
@@ -356,44 +355,6 @@ impl<'a> Program<'a> {
         Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c), groups })
     }
 
-    /// The multipliers of a scene in groups, those nearby if there are any.
-    fn grouped(
-        &self,
-        (of, scene): (Option<usize>, usize),
-        map: &MapResult,
-        near: Option<&Groups>,
-    ) -> Result<Groups, Failure> {
-        let roots = multipliers(&(self.own(scene, &self.scaled_jacobian(&map.jacobian)) / self.reference(of)));
-        match near {
-            None => Ok(Groups::whole(&roots)),
-            Some(near) => {
-                near.followed(&roots).ok_or_else(|| Failure::NotFinite("the order of the multipliers".to_owned()))
-            }
-        }
-    }
-
-    fn groups(&self) -> Vec<Groups> {
-        self.groups.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// From here on the Jury rows are those of the factors of this point; without a point, of the whole polynomials.
-    pub(super) fn adopt(&self, point: Option<&Point>) {
-        let groups = point.map_or_else(Vec::new, |point| point.groups.clone());
-        *self.groups.lock().unwrap_or_else(PoisonError::into_inner) = groups;
-    }
-
-    /// The point with groups of multipliers that are right for it, which are adopted; and whether they are others than before.
-    pub(super) fn settled(&self, point: Point) -> Result<(Point, bool), Failure> {
-        let groups: Vec<Groups> = point.groups.iter().map(Groups::settled).collect();
-        let others = groups != point.groups;
-        let point = match others {
-            true => self.at(&point.u, (point.parameters, point.section), point.map, &groups)?,
-            false => point,
-        };
-        self.adopt(Some(&point));
-        Ok((point, others))
-    }
-
     /// Objective in SI units.
     fn objective(&self, u: &DVector<f64>, map: &MapResult, parameters: &[f64]) -> Result<f64, Failure> {
         match self.goal() {
@@ -418,57 +379,5 @@ impl<'a> Program<'a> {
         let value = e.evaluate(measures, &self.scenes[scene].parameters(parameters));
         self.problem.check_value(what, &value).map_err(Failure::Wrong)?;
         if value.value.is_finite() { Ok(value) } else { Err(Failure::NotFinite(what.to_owned())) }
-    }
-
-    /// Unit of the bound of a constraint's Jury rows.
-    pub(super) fn reference(&self, of: Option<usize>) -> f64 {
-        of.map_or(self.variables.epigraph.unwrap_or(1.0), |i| self.references[i])
-    }
-
-    /// The bound on the spectral radius of a scene in units of its reference.
-    pub(super) fn radius(
-        &self,
-        of: Option<usize>,
-        u: &DVector<f64>,
-        map: (usize, &MapResult),
-        p: &[f64],
-    ) -> Result<Value, Failure> {
-        let info = self.problem.map.info();
-        let constant = |value| Value {
-            value,
-            dmeasures: vec![0.0; info.measures.len()],
-            dparameters: vec![0.0; info.parameters.len()],
-        };
-        let Some(constraint) = of.and_then(|i| self.problem.constraints.get(i)) else {
-            return Ok(constant(self.variables.epigraph_at().map_or(1.0, |at| u[at])));
-        };
-        let reference = self.reference(of);
-        match &constraint.kind {
-            ConstraintKind::SpectralRadius { bound: Bound::Expression(e) } => {
-                let mut value = self.value(&constraint.name, e.as_ref(), map, p)?;
-                value.value /= reference;
-                value.dmeasures.iter_mut().chain(&mut value.dparameters).for_each(|d| *d /= reference);
-                Ok(value)
-            }
-            ConstraintKind::SpectralRadius { bound: Bound::Constant(r) } => Ok(constant(r / reference)),
-            ConstraintKind::Margin { .. } => Ok(constant(1.0)),
-        }
-    }
-
-    /// Characteristic polynomial of a scene's Jacobian in scaled coordinates, in units of the reference radius.
-    pub(super) fn characteristic(&self, of: Option<usize>, scene: usize, map: &MapResult) -> Characteristic {
-        Characteristic::new(&(self.own(scene, &self.scaled_jacobian(&map.jacobian)) / self.reference(of)))
-    }
-
-    /// The block of a scene in a matrix over the coordinates of all.
-    pub(super) fn own(&self, scene: usize, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        let block = self.block(scene);
-        matrix.view((block.start, block.start), (block.len(), block.len())).into_owned()
-    }
-
-    /// The d x d Jacobian in scaled coordinates: a similarity, so the multipliers are the same.
-    pub(super) fn scaled_jacobian(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-        let nominal = &self.variables.nominal;
-        DMatrix::from_fn(nominal.len(), nominal.len(), |i, j| jacobian[(i, j)] * nominal[j] / nominal[i])
     }
 }

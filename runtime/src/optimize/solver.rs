@@ -27,7 +27,7 @@ pub struct Clarabel {
 impl Clarabel {
     /// The settings in use.
     pub const USED: Self = Self {
-        tolerance: 1e-10,
+        tolerance: 1e-8,
         equilibrate: true,
         static_regularisation: 1e-8,
         dynamic_regularisation: 1e-13,
