@@ -18,8 +18,8 @@ use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
 use nalgebra::DVector;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The value of a row that there is room for, and no factor.
 const NO_ROW: f64 = 1.0;
