@@ -24,6 +24,7 @@ mod show;
 mod simulate;
 mod stops;
 mod verify;
+mod whole;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, FromArgMatches};

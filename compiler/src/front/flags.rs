@@ -120,6 +120,11 @@ pub fn parse_range(text: &str, expected: Dimension) -> Result<(f64, f64), FlagEr
         let span = flag.text.span;
         return flag.error(Code::Syntax, "this is not a range", span, "write `LO..HI`, as in `0..200 N/m`");
     };
+    if let Some(rest) = text.get(dots + 2..).filter(|rest| rest.starts_with('.')) {
+        let written = format!("{}..{}", text.get(..dots).unwrap_or(""), rest.trim_start_matches('.'));
+        let span = flag.text.span;
+        return flag.error(Code::Syntax, "a range has two dots", span, &format!("write `{written}`"));
+    }
     let (lower, upper) = (flag.text.part(0..dots), flag.text.part(dots + 2..text.len()));
     let span = flag.text.span;
     let mut quantities = flag.quantities();

@@ -5,7 +5,7 @@ use super::escape::markdown;
 use super::lines::{aligned, row};
 use super::literal::quantity_latex;
 use super::page_latex::rows;
-use super::sheet::{Problem, Sheet, Surface, Transition};
+use super::sheet::{Problem, Sheet, Surface, Transition, Vary};
 
 /// The whole page.
 pub(super) fn page(sheet: &Sheet) -> String {
@@ -162,10 +162,12 @@ fn measures(sheet: &Sheet) -> String {
 
 fn problem(problem: &Problem) -> String {
     let mut lines = vec![format!("\\text{{{}}} \\quad & {}", problem.sense, problem.objective.latex)];
-    lines.extend(problem.vary.iter().map(|vary| {
+    let range = |what: &str, vary: &Vary| {
         let (lower, upper) = (quantity_latex(&vary.shown.0), quantity_latex(&vary.shown.1));
-        format!("\\text{{over}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
-    }));
+        format!("\\text{{{what}}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
+    };
+    lines.extend(problem.vary.iter().map(|vary| range("over", vary)));
+    lines.extend(problem.robust.iter().map(|uncertain| range("for every", uncertain)));
     lines.extend(problem.subject_to.iter().map(|c| format!("\\text{{subject to}} \\quad & {}", c.latex)));
     if problem.period > 1 {
         lines.push(format!("\\text{{for a gait of {} maps}} \\quad &", problem.period));

@@ -7,7 +7,7 @@ use crate::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, Sensitivity
 /// Smallest part of the way that continuation takes at once.
 const SHORTEST: f64 = 1.0 / 512.0;
 /// Most Newton steps to a gait of which only a guess is known ...
-const NEWTON_STEPS: usize = 50;
+pub(super) const NEWTON_STEPS: usize = 50;
 /// ... and to the next one on the way: more would say that the way is too long.
 const CORRECTIONS: usize = 10;
 

@@ -17,6 +17,8 @@ struct Owned {
     upper: Vec<f64>,
     radius: f64,
     penalty: f64,
+    clarabel: Clarabel,
+    tally: Tally,
 }
 
 impl Owned {
@@ -33,6 +35,8 @@ impl Owned {
             radius: self.radius,
             penalty: self.penalty,
             tie: self.penalty,
+            clarabel: &self.clarabel,
+            tally: &self.tally,
         }
     }
 }
@@ -61,6 +65,8 @@ fn random() -> impl Strategy<Value = Owned> {
                 upper: take(n).iter().map(|x| if *x < -0.5 { f64::INFINITY } else { x.max(0.0) }).collect(),
                 radius: 10f64.powf(radius),
                 penalty: 10f64.powf(penalty),
+                clarabel: Clarabel::USED,
+                tally: Tally::new(),
             }
         })
     })
@@ -91,6 +97,16 @@ proptest! {
                 }
             }
         }
+    }
+
+    /// One interior-point iteration solves nothing: every attempt fails with `MaxIterations`, and what is said names each.
+    #[test]
+    fn what_clarabel_cannot_solve_is_tried_in_every_way(data in random()) {
+        let short = Owned { clarabel: Clarabel { iterations: 1, ..Clarabel::USED }, ..data };
+        let unsolved = short.subproblem().solve().err().map(|Unsolved(words)| words);
+        prop_assert_eq!(unsolved, Some(["MaxIterations"; 5].join(", ")));
+        let counts = short.tally.counts();
+        prop_assert_eq!((counts.subproblems, counts.again, counts.unsolved, counts.max_iterations), (1, 1, 1, 5));
     }
 
     #[test]

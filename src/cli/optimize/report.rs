@@ -262,6 +262,7 @@ pub(super) fn status(status: Status) -> &'static str {
         Status::NoGait => "no_gait",
         Status::Unbounded => "unbounded",
         Status::IterationLimit => "iteration_limit",
+        Status::WorkLimit => "work_limit",
         Status::Stalled => "stalled",
         Status::SubproblemFailed => "subproblem_failed",
     }
