@@ -7,6 +7,8 @@ pub mod load;
 pub mod models;
 pub mod picture;
 pub mod problem;
+pub mod progress;
 pub mod provenance;
+pub mod study;
 pub mod table;
 pub mod verify;

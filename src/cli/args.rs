@@ -1,5 +1,6 @@
 //! The command line as clap reads it.
 
+use super::study::{BasinArgs, MergeArgs, SweepArgs};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -36,6 +37,12 @@ pub(crate) enum Command {
     Gait(GaitArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
+    /// Find the gait, or the optimum, at each of many points
+    Sweep(Box<SweepArgs>),
+    /// Find which starts lead to which gait
+    Basin(Box<BasinArgs>),
+    /// Join the shards of a sweep or basin
+    Merge(MergeArgs),
     /// Measure every generated derivative against an independent route
     Verify(VerifyArgs),
     /// Make a cargo project with a model of your own

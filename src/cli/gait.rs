@@ -6,7 +6,7 @@ use super::{InputError, Outcome, inputs, output};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{Method, StopReason, Warning};
+use gaitc_runtime::return_map::{Method, Warning};
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
@@ -67,22 +67,6 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    fn status(&self) -> &'static str {
-        match &self.outcome.status {
-            GaitStatus::Converged => "converged",
-            GaitStatus::Open(_) => "not_closed",
-            GaitStatus::NotConverged => "not_converged",
-            GaitStatus::Stopped(stop) => match stop.reason {
-                StopReason::NoEvent => "no_event",
-                StopReason::StepLimit => "step_limit",
-                StopReason::StepTooSmall => "step_too_small",
-                StopReason::NotFinite => "not_finite",
-                StopReason::Inconsistent => "inconsistent",
-                StopReason::Zeno => "zeno",
-            },
-        }
-    }
-
     /// The gait only where there is one: the last point of a failed search is no result.
     fn gait(&self) -> Option<&Gait> {
         self.outcome.gait.as_ref().filter(|_| self.outcome.status == GaitStatus::Converged)
@@ -98,7 +82,7 @@ impl Report<'_> {
         let names = spec.parameters.iter().map(|p| p.name.as_str());
         let mut all = json!({
             "model": spec.name,
-            "status": self.status(),
+            "status": self.outcome.status.name(),
             "message": self.outcome.message,
             "parameters": named(names, self.parameters),
             "residual": self.outcome.residual,
@@ -176,7 +160,7 @@ impl Report<'_> {
 
     fn text(&self) -> String {
         let spec = &self.loaded.spec;
-        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
+        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.outcome.status.name(), self.outcome.message);
         for warning in self.all_warnings() {
             text += &format!("warning: {warning}\n");
         }

@@ -14,6 +14,7 @@ mod optimize;
 mod output;
 mod schema;
 mod show;
+mod study;
 mod verify;
 
 use args::{Cli, Command};
@@ -89,5 +90,8 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Gait(args) => gait::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
+        Command::Sweep(args) => study::sweep(cli, args),
+        Command::Basin(args) => study::basin(cli, args),
+        Command::Merge(args) => study::merge(cli, args),
     }
 }

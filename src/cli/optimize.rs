@@ -15,6 +15,7 @@ use crate::load::load;
 use crate::problem::{Start, assemble};
 use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve, solve_robust};
 use report::Report;
+pub(super) use report::status;
 
 /// More starts than this tell nothing new and would run for days.
 const MOST_STARTS: usize = 100_000;
@@ -75,7 +76,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
 }
 
 /// What the first Ctrl-C requests; the second ends the program at once.
-fn on_interrupt() -> Interrupt {
+pub(super) fn on_interrupt() -> Interrupt {
     let interrupt = Interrupt::new();
     let requested = interrupt.clone();
     let set = ctrlc::set_handler(move || {
