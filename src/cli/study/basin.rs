@@ -14,13 +14,16 @@ use crate::table::Table;
 use gaitc_compiler::front::flags::{parse_assignment, parse_values};
 use gaitc_compiler::front::{LONGEST_PERIOD, format_quantity};
 use gaitc_runtime::orbit::GaitRequest;
-use gaitc_runtime::study::basin::{Basin, End};
+use gaitc_runtime::study::basin::{Basin, End, Fate, Settings};
 use gaitc_runtime::study::{Design, Pool};
 use serde_json::{Map, Value, json};
+use std::ops::Range;
 use std::time::Instant;
 
 /// Starts of a chunk, unless somebody says otherwise: a second's work or so.
 const STARTS: u64 = 200;
+/// Starts that are followed side by side: enough to fill lanes, few enough for every thread to have some.
+const GROUP: u64 = 32;
 /// A motion that is undecided after so many maps stays so.
 const MOST_STEPS: usize = 10_000_000;
 
@@ -57,11 +60,17 @@ pub(crate) fn run(cli: &Cli, args: &BasinArgs) -> Result<Outcome, InputError> {
     let tolerance = request.tolerance.max(10.0 * accuracy.relative);
     let request = GaitRequest { accuracy, tolerance, ..request };
     let (steps, periods) = (args.steps, args.periods);
-    let basin = Basin { map: loaded.compiled, request, steps, periods, interrupt: interrupt.clone() };
+    let settings = Settings { request, steps, periods, interrupt: interrupt.clone() };
+    let basin = Basin::new(loaded.compiled, settings, &starts.guess)?;
     let asked = Asked { manifest: manifest.clone(), provenance, storage: &args.storage, chunk: STARTS };
     let ran = asked.run(|numbers| {
-        let rows = pool.map(numbers, &interrupt, |number| starts.row(&basin, number))?;
-        Ok(rows.map(|rows| with_rows(&columns, rows)))
+        let (first, count) = (numbers.start, numbers.end - numbers.start);
+        let group = |group: u64| {
+            let from = first + group * GROUP;
+            starts.rows(&basin, from..(from + GROUP).min(numbers.end))
+        };
+        let rows = pool.map(0..count.div_ceil(GROUP), &interrupt, group)?;
+        Ok(rows.map(|rows| with_rows(&columns, rows.into_iter().flatten().collect())))
     })?;
     let summary =
         Summary { model: &loaded.spec.name, manifest: &manifest, storage: &args.storage, warnings: &warnings, began };
@@ -125,20 +134,10 @@ impl<'l> Starts<'l> {
         start
     }
 
-    fn row(&self, basin: &Basin<'_>, number: u64) -> Result<Vec<Cell>, InputError> {
-        let start = self.start(number);
-        let fate = basin.fate(&start)?;
-        let (outcome, period) = match fate.end {
-            End::Gait { period } => ("gait", period),
-            End::Stopped(reason) => (reason.name(), 0),
-            End::Undecided => ("undecided", 0),
-        };
-        let integer = |value: usize| Cell::Integer(i64::try_from(value).unwrap_or(i64::MAX));
-        let mut row = vec![Cell::Integer(i64::try_from(number).unwrap_or(i64::MAX))];
-        row.extend(start.into_iter().map(Cell::Number));
-        row.extend([Cell::Text(outcome), integer(period), integer(fate.steps)]);
-        row.extend(fate.coordinates.into_iter().map(Cell::Number));
-        Ok(row)
+    fn rows(&self, basin: &Basin<'_>, numbers: Range<u64>) -> Result<Vec<Vec<Cell>>, InputError> {
+        let starts: Vec<Vec<f64>> = numbers.clone().map(|number| self.start(number)).collect();
+        let fates = basin.fates(&starts)?;
+        Ok(numbers.zip(starts).zip(fates).map(|((number, start), fate)| row(number, start, fate)).collect())
     }
 
     /// The gaits, with their shares, and how many starts come to nothing.
@@ -183,4 +182,18 @@ impl<'l> Starts<'l> {
         }
         (section, shown.join(", "))
     }
+}
+
+fn row(number: u64, start: Vec<f64>, fate: Fate) -> Vec<Cell> {
+    let (outcome, period) = match fate.end {
+        End::Gait { period } => ("gait", period),
+        End::Stopped(reason) => (reason.name(), 0),
+        End::Undecided => ("undecided", 0),
+    };
+    let integer = |value: usize| Cell::Integer(i64::try_from(value).unwrap_or(i64::MAX));
+    let mut row = vec![Cell::Integer(i64::try_from(number).unwrap_or(i64::MAX))];
+    row.extend(start.into_iter().map(Cell::Number));
+    row.extend([Cell::Text(outcome), integer(period), integer(fate.steps)]);
+    row.extend(fate.coordinates.into_iter().map(Cell::Number));
+    row
 }
