@@ -3,7 +3,7 @@
 
 use crate::models::MODELS;
 use gaitc_compiler::diagnostic;
-use gaitc_compiler::front::{self, Library, flags::suggest};
+use gaitc_compiler::front::{self, Library, Observations, flags::suggest};
 use gaitc_compiler::ir;
 use gaitc_compiler::ir::canonical::fingerprint;
 use gaitc_runtime::registry::{Compiled, Entry};
@@ -16,6 +16,10 @@ pub struct Loaded {
     pub compiled: &'static dyn Compiled,
     /// The spec: names, units, values, problems.
     pub spec: ir::Model,
+    /// What can be observed along a run.
+    pub observations: Observations,
+    /// Hash of the texts of the spec and its parts.
+    pub digest: String,
     /// Where the values come from; `None` is the text embedded at build time.
     pub file: Option<PathBuf>,
 }
@@ -66,11 +70,11 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
         return embedded(entry);
     }
     let parsed = front::parse_file(&path).map_err(|error| LoadError::Read { path: path.clone(), error })?;
-    let spec = accept(parsed)?;
+    let (digest, (spec, observations)) = (parsed.digest(), accept(parsed)?);
     if fingerprint(&spec) != entry.compiled.info().fingerprint {
         return Err(LoadError::Stale(path));
     }
-    Ok(Loaded { compiled: entry.compiled, spec, file: Some(path) })
+    Ok(Loaded { compiled: entry.compiled, spec, observations, digest, file: Some(path) })
 }
 
 /// A compiled model with the values embedded at build time.
@@ -79,11 +83,12 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
 /// When the embedded text does not match the compiled equations (a generated file was not rebuilt).
 pub fn embedded(entry: &Entry) -> Result<Loaded, LoadError> {
     let path = PathBuf::from(format!("specs/{}.toml", entry.compiled.info().name));
-    let spec = accept(front::parse_with(&path, entry.spec, Library::Texts(entry.parts)))?;
+    let parsed = front::parse_with(&path, entry.spec, Library::Texts(entry.parts));
+    let (digest, (spec, observations)) = (parsed.digest(), accept(parsed)?);
     if fingerprint(&spec) != entry.compiled.info().fingerprint {
         return Err(LoadError::Stale(path));
     }
-    Ok(Loaded { compiled: entry.compiled, spec, file: None })
+    Ok(Loaded { compiled: entry.compiled, spec, observations, digest, file: None })
 }
 
 fn find(name: &str, folder: &Path) -> Result<&'static Entry, LoadError> {
@@ -101,10 +106,11 @@ fn find(name: &str, folder: &Path) -> Result<&'static Entry, LoadError> {
     Err(LoadError::Unknown { name: name.to_owned(), help })
 }
 
-fn accept(parsed: front::Parsed) -> Result<ir::Model, LoadError> {
-    let rendered = || diagnostic::render(&parsed.diagnostics, &parsed.sources, false);
-    let text = if parsed.model.is_none() { rendered() } else { String::new() };
-    parsed.model.ok_or(LoadError::Spec(text))
+fn accept(parsed: front::Parsed) -> Result<(ir::Model, Observations), LoadError> {
+    match parsed.model.zip(parsed.observations) {
+        Some(accepted) => Ok(accepted),
+        None => Err(LoadError::Spec(diagnostic::render(&parsed.diagnostics, &parsed.sources, false))),
+    }
 }
 
 impl Loaded {

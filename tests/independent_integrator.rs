@@ -1,38 +1,40 @@
 //! The prescribed-length climber's return map and Jacobian against another formulation by hand and another integrator:
-//! diffsol's explicit Runge-Kutta method of Tsitouras.
+//! DOP853 of the crate differential-equations, whose code shares nothing with ours.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
 use approx::assert_abs_diff_eq;
-use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::prelude::{IVP, ODE};
 use gaitc::load::load;
 use gaitc_runtime::return_map::{Accuracy, MapOutcome, MapRequest, Sensitivity};
 use std::f64::consts::PI;
 
+/// Angle and tangential velocity, then two columns of their variations.
+struct Swing {
+    omega: f64,
+}
+
+impl ODE<f64, [f64; 6]> for Swing {
+    fn diff(&self, tau: f64, y: &[f64; 6], dy: &mut [f64; 6]) {
+        let (l_s, l_b, g) = (0.13, 0.5, 9.81);
+        let r = l_b + l_s / 2.0 * (1.0 + (self.omega * tau).cos());
+        let v = -l_s / 2.0 * self.omega * (self.omega * tau).sin();
+        dy[0] = y[1] / r;
+        dy[1] = -g * y[0].sin() - v * y[1] / r;
+        for c in [2, 4] {
+            dy[c] = y[c + 1] / r;
+            dy[c + 1] = -g * y[0].cos() * y[c] - v * y[c + 1] / r;
+        }
+    }
+}
+
 /// Map and Jacobian (row-major) of mirror o S_L o flow, eqs. 6.2.4, 6.3.5, 6.3.6, written by hand.
 fn by_hand(z: [f64; 2], psi: f64, omega: f64) -> ([f64; 2], [f64; 4]) {
-    let (l_s, l_b, g) = (0.13, 0.5, 9.81);
-    let problem = OdeBuilder::<NalgebraMat<f64>>::new()
-        .rtol(1e-12)
-        .atol([1e-13; 6])
-        .rhs(move |y, _p, tau, dy| {
-            let r = l_b + l_s / 2.0 * (1.0 + (omega * tau).cos());
-            let v = -l_s / 2.0 * omega * (omega * tau).sin();
-            dy[0] = y[1] / r;
-            dy[1] = -g * y[0].sin() - v * y[1] / r;
-            for c in [2, 4] {
-                dy[c] = y[c + 1] / r;
-                dy[c + 1] = -g * y[0].cos() * y[c] - v * y[c + 1] / r;
-            }
-        })
-        .init(move |_p, _t, y| y.copy_from_slice(&[z[0], z[1], 1.0, 0.0, 0.0, 1.0]), 6)
-        .build()
-        .unwrap();
-    let mut solver = problem.tsit45().unwrap();
-    solver.set_stop_time(PI / omega).unwrap();
-    while !matches!(solver.step().unwrap(), OdeSolverStopReason::TstopReached) {}
-    let state = solver.state();
-    let y: Vec<f64> = (0..6).map(|i| state.y[i]).collect();
+    let swing = Swing { omega };
+    let method = ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-14);
+    let solution = IVP::ode(&swing, 0.0, PI / omega, [z[0], z[1], 1.0, 0.0, 0.0, 1.0]).method(method).solve().unwrap();
+    let y = *solution.y.last().unwrap();
     let shrink = (2.0 * psi).cos();
     ([-(y[0] + 2.0 * psi), -shrink * y[1]], [-y[2], -y[4], -shrink * y[3], -shrink * y[5]])
 }

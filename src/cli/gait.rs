@@ -2,7 +2,7 @@
 
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
-use super::{InputError, Outcome, inputs, output};
+use super::{InputError, Outcome, inputs, output, provenance};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
@@ -45,7 +45,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let warnings = inputs::outside_range(&loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };
     if cli.json {
-        output::json(&report.json());
+        output::result(&provenance::of(&cli.run, &loaded, &parameters), report.json());
     } else {
         output::print(&report.text());
     }

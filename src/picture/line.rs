@@ -1,20 +1,12 @@
 //! One curve of points in the plane, with marked places.
 
-use super::axis::{range, tick};
-use super::{BLUE, GREY, ORANGE};
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::error::Error;
-
-/// A named place on the curve.
-pub struct Mark {
-    /// Where.
-    pub at: (f64, f64),
-    /// What stands beside it.
-    pub label: String,
-}
+use super::axis::{aired, drawable, extent};
+use super::canvas::{Canvas, Ink, Place};
+use super::frame::{Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, Sides, heading, horizontal, left_of, vertical};
+use super::{Mark, Picture, palette};
 
 /// A curve over an axis, both in the units that their labels name.
+#[derive(Clone, Debug, Default)]
 pub struct Line {
     /// Above the picture.
     pub title: String,
@@ -28,47 +20,50 @@ pub struct Line {
     pub marks: Vec<Mark>,
 }
 
-const SIZE: (u32, u32) = (1000, 700);
-
-impl Line {
-    /// The picture as SVG text.
-    ///
-    /// # Errors
-    /// Those of the drawing library.
-    pub fn svg(&self) -> Result<String, Box<dyn Error>> {
-        let mut text = String::new();
-        self.draw(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area())?;
-        Ok(text)
-    }
-
-    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>) -> Result<(), Box<dyn Error>> {
-        area.fill(&WHITE)?;
-        let (x, y) = (range(self.points.iter().map(|p| p.0)), range(self.points.iter().map(|p| p.1)));
-        let label = ("sans-serif", 22);
-        let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, ("sans-serif", 28))
-            .margin(24)
-            .x_label_area_size(64)
-            .y_label_area_size(100)
-            .build_cartesian_2d(x.clone(), y.clone())?;
-        let (of_x, of_y) = (|v: &f64| tick(*v, &x), |v: &f64| tick(*v, &y));
-        let mut mesh = chart.configure_mesh();
-        mesh.x_desc(&self.x).y_desc(&self.y).label_style(label).axis_desc_style(label);
-        mesh.x_label_formatter(&of_x).y_label_formatter(&of_y).x_labels(8).y_labels(8).light_line_style(WHITE);
-        mesh.draw()?;
-        chart.draw_series(LineSeries::new(self.points.iter().copied(), BLUE.stroke_width(3)))?;
-        chart.draw_series(self.points.iter().map(|&at| Circle::new(at, 4, BLUE.filled())))?;
-        let middle = (0.5 * (x.start + x.end), 0.5 * (y.start + y.end));
-        for mark in &self.marks {
-            chart.draw_series([Circle::new(mark.at, 8, ORANGE.filled())])?;
-            // Towards the middle, so that the text stays inside, and above or below the curve's end.
-            let (side, right) = if mark.at.0 < middle.0 { (HPos::Left, 14) } else { (HPos::Right, -14) };
-            let down = if mark.at.1 < middle.1 { 16 } else { -16 };
-            let style = ("sans-serif", 20).into_font().color(&GREY).pos(Pos::new(side, VPos::Center));
-            let text = EmptyElement::at(mark.at) + Text::new(mark.label.clone(), (right, down), style);
-            chart.draw_series([text])?;
+impl Picture for Line {
+    fn draw(&self) -> Canvas {
+        let mut canvas = Canvas::new(720.0, 480.0, &self.title);
+        let top = heading(&mut canvas, &self.title);
+        let bottom = canvas.height - MARGIN - NUMBERS_BELOW - LABEL_BELOW;
+        let all = || self.points.iter().chain(self.marks.iter().map(|mark| &mark.at));
+        let y = vertical(aired(extent(all().map(|p| p.1)), 0.06), bottom - top);
+        let top = if y.is_scaled() { top + 14.0 } else { top };
+        let indent = left_of([&y]);
+        let sides = Sides { left: indent, right: canvas.width - MARGIN - 10.0, top, bottom };
+        let x = horizontal(aired(extent(all().map(|p| p.0)), 0.06), sides.right - sides.left);
+        let frame = Frame { sides, x, y, indent };
+        frame.grid(&mut canvas);
+        frame.below(&mut canvas, &self.x);
+        frame.beside(&mut canvas, &self.y);
+        frame.curve(&mut canvas, &self.points, palette::curve(0));
+        // Points that stand apart are shown; a dense curve is just a curve.
+        if self.points.len() <= 60 {
+            for &point in self.points.iter().filter(|p| drawable(p.0) && drawable(p.1)) {
+                palette::marker(&mut canvas, frame.at(point), 0, 4.0, Ink::Hue(0));
+            }
         }
-        area.present()?;
-        Ok(())
+        let mut taken = along(&self.points.iter().map(|&p| frame.at(p)).collect::<Vec<_>>());
+        taken.extend(self.marks.iter().map(|mark| frame.at(mark.at)));
+        for mark in self.marks.iter().filter(|m| drawable(m.at.0) && drawable(m.at.1)) {
+            palette::marker(&mut canvas, frame.at(mark.at), 3, 6.0, Ink::Hue(1));
+            frame.note(&mut canvas, frame.at(mark.at), &mark.label, &taken);
+        }
+        if !self.points.iter().any(|p| drawable(p.0) && drawable(p.1)) {
+            frame.nothing(&mut canvas);
+        }
+        canvas
     }
+}
+
+/// Places on the lines between neighbours, close enough that no text fits between them.
+fn along(points: &[Place]) -> Vec<Place> {
+    let pieces = points.windows(2).flat_map(|pair| {
+        let (from, to) = (pair[0], pair[1]);
+        let parts = ((to.0 - from.0).hypot(to.1 - from.1) / 6.0).clamp(1.0, 200.0) as usize;
+        (0..=parts).map(move |i| {
+            let share = i as f64 / parts as f64;
+            (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+        })
+    });
+    pieces.collect()
 }

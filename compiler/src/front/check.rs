@@ -74,7 +74,8 @@ fn part(path: &Path, text: &str) -> Option<Parsed> {
         lower::lower(&spec, &sources, &mut found);
         diagnostics.extend(found.into_iter().filter(is_of_the_part));
     }
-    Some(Parsed { sources, model: None, diagnostics: sorted(diagnostics), parts: loaded.names, spec: None })
+    let (diagnostics, parts) = (sorted(diagnostics), loaded.names);
+    Some(Parsed { sources, model: None, observations: None, diagnostics, parts, spec: None })
 }
 
 /// Whether a folder of the path is called `parts`; of a file's bare name, the folder where it lies.

@@ -1,6 +1,7 @@
 //! The value of an expression without variables.
 
-use crate::ir::{Binary, Graph, Node, NodeId, Unary};
+use crate::ir::eval::real::{binary, unary};
+use crate::ir::{Graph, Node, NodeId};
 
 /// Evaluates a node; `None` if it depends on a variable.
 pub(crate) fn evaluate(graph: &Graph, root: NodeId) -> Option<f64> {
@@ -21,37 +22,4 @@ pub(crate) fn evaluate(graph: &Graph, root: NodeId) -> Option<f64> {
         }
     });
     values.get(root.0 as usize).copied().flatten()
-}
-
-/// The value of a function of one argument.
-pub(crate) fn unary(op: Unary, a: f64) -> f64 {
-    match op {
-        Unary::Neg => -a,
-        Unary::Sin => a.sin(),
-        Unary::Cos => a.cos(),
-        Unary::Tan => a.tan(),
-        Unary::Asin => a.asin(),
-        Unary::Acos => a.acos(),
-        Unary::Atan => a.atan(),
-        Unary::Sinh => a.sinh(),
-        Unary::Cosh => a.cosh(),
-        Unary::Tanh => a.tanh(),
-        Unary::Asinh => a.asinh(),
-        Unary::Acosh => a.acosh(),
-        Unary::Atanh => a.atanh(),
-        Unary::Exp => a.exp(),
-        Unary::Log => a.ln(),
-        Unary::Sqrt => a.sqrt(),
-    }
-}
-
-fn binary(op: Binary, a: f64, b: f64) -> f64 {
-    match op {
-        Binary::Add => a + b,
-        Binary::Sub => a - b,
-        Binary::Mul => a * b,
-        Binary::Div => a / b,
-        Binary::Pow => a.powf(b),
-        Binary::Atan2 => a.atan2(b),
-    }
 }

@@ -42,15 +42,19 @@ impl fmt::Display for FlagError {
 impl std::error::Error for FlagError {}
 
 /// A flag's text being read.
-struct Flag {
-    sources: SourceMap,
-    text: Text,
-    diagnostics: Vec<Diagnostic>,
+pub(super) struct Flag {
+    pub(super) sources: SourceMap,
+    pub(super) text: Text,
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl Flag {
     fn new(text: &str) -> Self {
-        let mut sources = SourceMap::default();
+        Self::among(SourceMap::default(), text)
+    }
+
+    /// A text that refers to others.
+    pub(super) fn among(mut sources: SourceMap, text: &str) -> Self {
         let file: FileId = sources.add("command line", text);
         Self { sources, text: Text::whole_file(file, text), diagnostics: Vec::new() }
     }
@@ -59,7 +63,7 @@ impl Flag {
         Quantities { sources: &self.sources, diagnostics: &mut self.diagnostics }
     }
 
-    fn finish<T>(self, result: Option<T>) -> Result<T, FlagError> {
+    pub(super) fn finish<T>(self, result: Option<T>) -> Result<T, FlagError> {
         let error = FlagError { diagnostics: self.diagnostics, sources: self.sources };
         match result {
             Some(result) if !error.diagnostics.iter().any(Diagnostic::is_error) => Ok(result),
@@ -67,8 +71,12 @@ impl Flag {
         }
     }
 
-    fn error<T>(mut self, code: Code, message: &str, span: Span, help: &str) -> Result<T, FlagError> {
-        self.diagnostics.push(Diagnostic::error(code, message).at(span, "").help(help));
+    fn error<T>(self, code: Code, message: &str, span: Span, help: &str) -> Result<T, FlagError> {
+        self.refuse(Diagnostic::error(code, message).at(span, "").help(help))
+    }
+
+    pub(super) fn refuse<T>(mut self, diagnostic: Diagnostic) -> Result<T, FlagError> {
+        self.diagnostics.push(diagnostic);
         self.finish(None)
     }
 
@@ -81,10 +89,7 @@ impl Flag {
     ) -> Result<T, FlagError> {
         let expression = match expression {
             Ok(expression) => expression,
-            Err(diagnostic) => {
-                self.diagnostics.push(*diagnostic);
-                return self.finish(None);
-            }
+            Err(diagnostic) => return self.refuse(*diagnostic),
         };
         let equation = Equation { text: self.text.clone(), expression: Some(expression) };
         let (scope, definitions) = (Scope::of_model(model), Definitions::default());

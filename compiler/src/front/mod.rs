@@ -13,6 +13,7 @@ pub(crate) mod keys;
 mod lexer;
 mod lower;
 pub(crate) mod names;
+mod observe;
 pub(crate) mod parser;
 mod parts;
 pub(crate) mod quantity;
@@ -25,15 +26,18 @@ pub mod units;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Model;
+use crate::ir::canonical::hex_digest;
 use crate::source::{FileId, SourceMap, Span};
 pub use check::{Checked, check_file, may_be_spec};
-pub use format::{format_number, format_quantity, format_si, in_unit};
+pub use format::{format_exact, format_number, format_quantity, format_si, in_unit};
 pub use keys::LONGEST_PERIOD;
 pub use names::{is_module_name, suggest};
+pub use observe::Observations;
 pub use parts::Library;
 use parts::Loader;
 pub use si::si_unit;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Largest spec in bytes.
 const SIZE_LIMIT: u64 = 4 << 20;
@@ -48,12 +52,23 @@ pub struct Parsed {
     pub sources: SourceMap,
     /// The model; `Some` if and only if there is no error.
     pub model: Option<Model>,
+    /// What can be observed along its runs; as the model.
+    pub observations: Option<Observations>,
     /// Errors and warnings in the order of the text, then of its parts.
     pub diagnostics: Vec<Diagnostic>,
     /// The parts that were read, as paths seen from the folder of the spec, with `/`.
     pub parts: Vec<String>,
     /// The spec as it was written, joined with its parts, for `show`; `None` without a model.
-    pub(crate) spec: Option<spec::Spec>,
+    pub(crate) spec: Option<Arc<spec::Spec>>,
+}
+
+impl Parsed {
+    /// Hash of everything that was read, the spec and its parts: 64 hexadecimal digits. Another text is another hash, also where the
+    /// equations are the same.
+    pub fn digest(&self) -> String {
+        let digests: String = self.sources.texts().map(|text| hex_digest(text.as_bytes())).collect();
+        hex_digest(digests.as_bytes())
+    }
 }
 
 /// Reads a spec from a file, and its parts from the file's folder.
@@ -104,16 +119,19 @@ pub fn parse_with(path: &Path, text: &str, library: Library<'_>) -> Parsed {
     let start = Span { file, start: 0, end: 0 };
     let mut spec = read::read(&document, start, complete, &mut diagnostics);
     let loaded = Loader::new(library, path, &mut sources, &mut diagnostics).load(&mut spec, start);
-    let mut model = None;
+    let mut lowered = None;
     // Where TOML is broken or a part is missing definitions may be lost: what would be said of names is unreliable.
     if complete && loaded.whole && !diagnostics.iter().any(|diagnostic| diagnostic.code == Code::TooLarge) {
         check_file_name(&spec, path, &mut diagnostics);
-        model = Some(lower::lower(&spec, &sources, &mut diagnostics));
+        lowered = Some(lower::lower(&spec, &sources, &mut diagnostics));
     }
-    let model = model.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
+    let whole = lowered.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
+    let (model, observed) = whole.unzip();
     let diagnostics = sorted(diagnostics);
-    let spec = model.is_some().then_some(spec);
-    Parsed { sources, model, diagnostics, parts: loaded.names, spec }
+    let spec = model.is_some().then(|| Arc::new(spec));
+    let observations = observed.zip(spec.clone());
+    let observations = observations.map(|(observed, spec)| Observations::new(observed, spec, sources.clone()));
+    Parsed { sources, model, observations, diagnostics, parts: loaded.names, spec }
 }
 
 /// Where a line begins that is too long, and what is to be said of it.
@@ -132,7 +150,7 @@ fn unreadable(path: &Path, text: &str, at: usize, message: &str) -> Parsed {
     let mut sources = SourceMap::default();
     let file: FileId = sources.add(path, text);
     let diagnostic = Diagnostic::error(Code::File, message).at(Span { file, start: at, end: at }, "");
-    Parsed { sources, model: None, diagnostics: vec![diagnostic], parts: Vec::new(), spec: None }
+    Parsed { sources, model: None, observations: None, diagnostics: vec![diagnostic], parts: Vec::new(), spec: None }
 }
 
 fn check_file_name(spec: &spec::Spec, path: &Path, diagnostics: &mut Vec<Diagnostic>) {

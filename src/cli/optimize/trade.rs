@@ -5,10 +5,11 @@ mod report;
 
 use super::{Outcome, request};
 use crate::cli::args::OptimizeArgs;
-use crate::cli::{InputError, output};
+use crate::cli::{InputError, output, plots};
 use crate::files;
 use crate::load::Loaded;
 use crate::problem::{Start, assemble};
+use crate::provenance::Provenance;
 use gaitc_compiler::ir::{self, Binary};
 use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Status, TradeOutcome, trade};
 use quantity::Quantity;
@@ -34,7 +35,7 @@ pub(super) fn run(
     (mut spec, problem): (ir::Model, ir::Problem),
     mut start: Start,
     (args, json): (&OptimizeArgs, bool),
-    warnings: &[String],
+    (warnings, provenance): (&[String], &Provenance),
 ) -> Result<Outcome, InputError> {
     if !(2..=MOST_POINTS).contains(&args.points) {
         return Err(InputError(format!("--points {}: give a number from 2 to {MOST_POINTS}", args.points)));
@@ -59,16 +60,16 @@ pub(super) fn run(
     let outcome = trade(&|aim, origin| asked.problem(aim, origin), args.points)?;
     let report = Report { trade: &asked, outcome: &outcome, warnings };
     if json {
-        output::json(&report.json());
+        output::result(provenance, report.json());
     } else {
         output::print(&report.text());
     }
     if let TradeOutcome::Curve(curve) = &outcome {
         if let Some(path) = &args.csv {
-            save(path, "--csv", report.csv(curve));
+            save(path, report.csv(curve));
         }
         if let Some(path) = &args.plot {
-            save(path, "--plot", report.picture(curve).svg().map(String::into_bytes));
+            plots::save("--plot", path, &report.picture(curve), provenance);
         }
     }
     Ok(match outcome {
@@ -86,30 +87,25 @@ fn places(args: &OptimizeArgs) -> Result<(), InputError> {
     if args.csv.is_some() && args.csv == args.plot {
         return Err(InputError("--csv and --plot name the same file\n  help: name two".to_owned()));
     }
-    if let Some(path) = &args.plot
-        && let Some(kind) = path.extension().filter(|kind| !kind.eq_ignore_ascii_case("svg"))
-    {
-        let (path, kind) = (path.display(), kind.display());
-        return Err(InputError(format!("--plot {path}: pictures are SVG, not {kind}\n  help: end the name in `.svg`")));
+    if let Some(path) = &args.plot {
+        plots::check("--plot", path)?;
     }
-    for (flag, path) in [("--csv", &args.csv), ("--plot", &args.plot)] {
-        if let Some(path) = path {
-            files::try_place(path).map_err(|error| InputError(not_written(flag, path, &error)))?;
-        }
+    if let Some(path) = &args.csv {
+        files::try_place(path).map_err(|error| InputError(not_written(path, &error)))?;
     }
     Ok(())
 }
 
 /// Writes a file; what was printed stands even if that fails.
-fn save(path: &Path, flag: &str, contents: Result<Vec<u8>, Box<dyn std::error::Error>>) {
+fn save(path: &Path, contents: Result<Vec<u8>, Box<dyn std::error::Error>>) {
     let written = contents.and_then(|contents| Ok(files::write(path, &contents)?));
     if let Err(error) = written {
-        output::lose(&not_written(flag, path, &error));
+        output::lose(&not_written(path, &error));
     }
 }
 
-fn not_written(flag: &str, path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{flag} {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
+fn not_written(path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("--csv {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
 }
 
 impl<'l> Trade<'l> {

@@ -10,9 +10,9 @@ use super::value::{Place, Uses, Value};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::{Dimension, Exponent};
-use crate::front::constant::unary;
 use crate::front::names::{FUNCTIONALS, FUNCTIONS};
 use crate::front::syntax::Call;
+use crate::ir::eval::real::unary;
 use crate::ir::{Binary, Functional, FunctionalKind, NodeId, Symbol, Unary};
 use crate::source::Span;
 

@@ -102,6 +102,12 @@ impl<'a> Lowering<'a> {
         }
     }
 
+    /// With names of `[let]` that have been lowered before, into the same graph.
+    pub(crate) fn with_lets(&mut self, lets: Lets) -> &mut Self {
+        self.lets = lets;
+        self
+    }
+
     /// Lowers an equation of the spec.
     pub(crate) fn equation(&mut self, equation: &Equation, place: Place) -> Option<Value> {
         let expression = equation.expression.as_ref()?;

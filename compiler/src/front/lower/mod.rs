@@ -8,6 +8,7 @@ mod clock;
 mod declare;
 mod definitions;
 mod derivative;
+mod drawing;
 mod dynamics;
 mod expr;
 mod fixed;
@@ -17,9 +18,11 @@ mod involution;
 mod lowering;
 mod mass;
 mod measures;
+mod observed;
 mod on_section;
 mod order;
 mod problems;
+mod published;
 mod reach;
 mod sample;
 mod scope;
@@ -35,11 +38,12 @@ use crate::ir::{Graph, Model};
 use crate::source::SourceMap;
 pub(crate) use definitions::Definitions;
 pub(crate) use lowering::{Context, Lowering};
+pub(crate) use observed::Observed;
 pub(crate) use scope::Scope;
 pub(crate) use value::Place;
 
-/// Lowers a spec. The model is whole only if no error was reported.
-pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diagnostic>) -> Model {
+/// Lowers a spec: the model, and what can be observed along its runs. Both are whole only if no error was reported.
+pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diagnostic>) -> (Model, Observed) {
     let mut model = empty_model();
     model.name = spec.name.as_ref().map_or(String::new(), |name| name.value.clone());
     model.title.clone_from(&spec.title);
@@ -55,10 +59,12 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     lowering.measures(spec);
     lowering.also_zero(spec);
     lowering.problems(spec);
+    lowering.published(spec);
     // What nothing needs is checked, but leaves no trace in the model.
     let lets = lowering.into_lets();
     let mut scratch = model.clone();
     Lowering::new(&mut scratch, &scope, &definitions, sources, diagnostics).lower_remaining_lets(lets);
+    let observed = observed::observed(spec, (&model, &scope, &definitions), sources, diagnostics);
     // Where a name is misspelt, what it was meant to be only looks unused, and what follows from equations is not known.
     if !diagnostics.iter().any(Diagnostic::is_error) {
         reach::check(spec, &model, diagnostics);
@@ -68,7 +74,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
         invariance::check(spec, &model, diagnostics);
         unused::check(spec, diagnostics);
     }
-    model
+    (model, observed)
 }
 
 /// A model without anything.
@@ -88,5 +94,6 @@ pub(crate) fn empty_model() -> Model {
         functionals: Vec::new(),
         measures: Vec::new(),
         problems: Vec::new(),
+        published: Vec::new(),
     }
 }

@@ -77,6 +77,11 @@ impl Scope {
         scope
     }
 
+    /// The same names for a text that is neither the spec nor a part.
+    pub(super) fn outside(&self) -> Self {
+        Self { spec: None, ..self.clone() }
+    }
+
     /// Whether a place is in a part.
     pub(super) fn in_part(&self, span: Span) -> bool {
         self.spec.is_some_and(|spec| span.file != spec)

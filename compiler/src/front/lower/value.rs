@@ -85,6 +85,8 @@ pub(crate) enum Place {
     Functional,
     /// A measure, outside functionals.
     Measure,
+    /// What is looked at along a run: the values of a point decide conditions.
+    Observation,
     /// Objective or constraint.
     Problem,
     /// A quantity.
@@ -96,7 +98,9 @@ impl Place {
         match self {
             Self::Flow | Self::Event(_) | Self::Functional => Style::Frozen,
             Self::Let(style) => style,
-            Self::When(_) | Self::Section | Self::Measure | Self::Problem | Self::Constant => Style::Immediate,
+            Self::When(_) | Self::Section | Self::Measure | Self::Observation | Self::Problem | Self::Constant => {
+                Style::Immediate
+            }
         }
     }
 
@@ -104,9 +108,11 @@ impl Place {
     pub(crate) const fn available(self) -> Uses {
         match self {
             Self::Flow | Self::Event(Rates::Unknown) | Self::When(Rates::Unknown) => Uses::PARAMETER.and(Uses::MOTION),
-            Self::Event(Rates::Known) | Self::When(Rates::Known) | Self::Let(_) | Self::Functional => {
-                Uses::PARAMETER.and(Uses::MOTION).and(Uses::RATE)
-            }
+            Self::Event(Rates::Known)
+            | Self::When(Rates::Known)
+            | Self::Let(_)
+            | Self::Functional
+            | Self::Observation => Uses::PARAMETER.and(Uses::MOTION).and(Uses::RATE),
             Self::Section => Uses::PARAMETER.and(Uses::STATE),
             Self::Measure => Uses::PARAMETER.and(Uses::FUNCTIONAL),
             Self::Problem => Uses::PARAMETER.and(Uses::MEASURE).and(Uses::RADIUS),

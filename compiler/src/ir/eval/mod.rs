@@ -4,10 +4,13 @@
 //! objectives and constraints of optimisation problems, which are data. It shares nothing with CasADi or the emitter.
 
 mod nilpotent;
+pub(crate) mod real;
+mod tape;
 
 use super::{Binary, Graph, Node, NodeId, Symbol, Unary};
 use nilpotent::Nilpotent;
 use std::collections::HashMap;
+pub use tape::Tape;
 
 /// Values of all symbols, SI units. Symbols outside the slices are NaN.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,6 +51,10 @@ impl Environment<'_> {
             Symbol::Time => self.time,
             Symbol::SpectralRadius => self.spectral_radius,
         }
+    }
+
+    fn selected(&self, switch: usize) -> bool {
+        self.branch.get(switch).copied().unwrap_or(false)
     }
 }
 
@@ -91,9 +98,7 @@ fn evaluate_node(
             .fold(Nilpotent::real(at.value(symbol)), |value, (i, _)| value.perturbed(i)),
         Node::Unary(op, a) => unary(op, &of(a)),
         Node::Binary(op, a, b) => binary(op, &of(a), &of(b)),
-        Node::Select { switch, then, otherwise } => {
-            of(if at.branch.get(switch).copied().unwrap_or(false) { then } else { otherwise })
-        }
+        Node::Select { switch, then, otherwise } => of(if at.selected(switch) { then } else { otherwise }),
         Node::Choose { margin, then, otherwise } => of(if of(margin).value() >= 0.0 { then } else { otherwise }),
         Node::Partial(expr, symbol) if perturbed.len() < DEEPEST => {
             let more = [perturbed, &[symbol]].concat();

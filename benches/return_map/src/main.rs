@@ -1,5 +1,5 @@
 //! Return map and Jacobian of the crank-slider climber (self_exciting) to 1e-8, by gaitc and by diffsol.
-//! `cargo bench --bench return_map`; docs/performance.md says more.
+//! `cargo run --release --manifest-path benches/return_map/Cargo.toml`; docs/performance.md says more.
 //!
 //! Each runs at the loosest tolerance at which its result is within 1e-8 of the reference of the tests (collocation over the
 //! crank angle); a tolerance means something else in each code, an error does not.
@@ -9,7 +9,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a bench may fail loudly
 #![allow(clippy::print_stdout)] // its result
 
-#[path = "../../tests/crank_slider/mod.rs"]
+#[path = "../../../tests/crank_slider/mod.rs"]
 mod crank_slider;
 mod diffsol_map;
 
