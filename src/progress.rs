@@ -8,9 +8,9 @@ use std::io::IsTerminal as _;
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// Of `total` pieces, called `unit` (in the plural).
-    pub fn new(total: u64, unit: &str) -> Self {
-        let target = match std::io::stderr().is_terminal() {
+    /// Of `total` pieces, called `unit` (in the plural); nothing is shown when `quiet`.
+    pub fn new(total: u64, unit: &str, quiet: bool) -> Self {
+        let target = match !quiet && std::io::stderr().is_terminal() {
             true => ProgressDrawTarget::stderr(),
             false => ProgressDrawTarget::hidden(),
         };

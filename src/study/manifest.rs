@@ -128,16 +128,14 @@ pub struct Manifest {
     columns: Vec<Head>,
     /// Version, model, fingerprint, run.
     provenance: Value,
-    /// What the run alone does not say, as values that the spec gives.
-    details: Value,
 }
 
 impl Manifest {
     /// The manifest of a study whose chunks have the columns of `table` (its rows do not matter).
-    pub fn new(kind: Kind, table: &Table, points: u64, (provenance, details): (&Provenance, Value)) -> Self {
+    pub fn new(kind: Kind, table: &Table, points: u64, provenance: &Provenance) -> Self {
         let columns = table.columns.iter().map(Head::of).collect();
         let (chunk, shard, provenance) = (points.max(1), Shard::default(), provenance.json());
-        Self { format: FORMAT, kind, points, chunk, shard, columns, provenance, details }
+        Self { format: FORMAT, kind, points, chunk, shard, columns, provenance }
     }
 
     /// A table with the columns of the chunks and no rows.
@@ -202,7 +200,9 @@ impl Manifest {
         let text = |key: &str| self.provenance.get(key).and_then(Value::as_str).map(str::to_owned);
         let run = self.provenance.get("run").map(|run| toml::Table::try_from(run));
         match (text("model"), text("fingerprint"), run) {
-            (Some(model), Some(fingerprint), Some(Ok(run))) => Ok(Provenance { model, fingerprint, run }),
+            (Some(model), Some(fingerprint), Some(Ok(run))) => {
+                Ok(Provenance { model, fingerprint, spec: text("spec").unwrap_or_default(), run })
+            }
             _ => Err("it is damaged: it does not say what made the study".to_owned()),
         }
     }
@@ -213,7 +213,15 @@ impl Manifest {
         let others = serde_json::to_value(Self { shard: Shard::default(), ..other.clone() }).unwrap_or_default();
         // The run says it best.
         let run = |value: &Value| value.pointer("/provenance/run").cloned().unwrap_or_default();
-        difference("", &run(&own), &run(&others)).or_else(|| difference("", &own, &others))
+        let program = |value: &Value| value.pointer("/provenance/version").cloned().unwrap_or_default();
+        let found = difference("", &run(&own), &run(&others));
+        found.or_else(|| difference("version", &program(&own), &program(&others))).or_else(|| {
+            // Hashes tell people nothing.
+            match difference("", &own, &others)? {
+                hash if hash.starts_with("`provenance.") => Some("the spec has been edited in between".to_owned()),
+                other => Some(other),
+            }
+        })
     }
 }
 

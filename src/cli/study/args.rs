@@ -32,6 +32,9 @@ pub(crate) struct SweepArgs {
     /// Number of maps that make one period
     #[arg(long, default_value_t = 1, value_name = "K")]
     pub(crate) period: usize,
+    /// Draw it as SVG or PNG, by the ending: over one range the measure and the spectral radius, over two which points have a stable gait
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    pub(crate) plot: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) storage: StorageArgs,
 }
@@ -56,6 +59,9 @@ pub(crate) struct BasinArgs {
     /// Longest period of a gait to look for, in maps
     #[arg(long, default_value_t = 8, value_name = "K")]
     pub(crate) periods: usize,
+    /// Draw it as SVG or PNG, by the ending: over two ranges which start leads where
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    pub(crate) plot: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) storage: StorageArgs,
 }

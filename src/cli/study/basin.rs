@@ -1,13 +1,13 @@
 //! `gaitc basin MODEL`: which starts lead to which gait.
 
 use super::args::BasinArgs;
+use super::axes;
 use super::columns::{Cell, Columns, integers, numbers, texts, with_rows};
-use super::run::{self, Asked};
+use super::run::{self, Asked, Ran};
 use super::summary::{Findings, Summary};
-use super::{axes, origin};
 use crate::cli::args::Cli;
 use crate::cli::optimize::on_interrupt;
-use crate::cli::{InputError, Outcome, inputs, output};
+use crate::cli::{InputError, Outcome, inputs, output, plots, provenance};
 use crate::load::{Loaded, load};
 use crate::study::{Kind, Manifest};
 use crate::table::Table;
@@ -28,12 +28,12 @@ const GROUP: u64 = 32;
 const MOST_STEPS: usize = 10_000_000;
 
 /// Starts: a grid over some coordinates, the others held.
-struct Starts<'l> {
-    loaded: &'l Loaded,
+pub(super) struct Starts<'l> {
+    pub(super) loaded: &'l Loaded,
     guess: Vec<f64>,
     /// Indices into the section coordinates.
-    over: Vec<usize>,
-    design: Design,
+    pub(super) over: Vec<usize>,
+    pub(super) design: Design,
 }
 
 pub(crate) fn run(cli: &Cli, args: &BasinArgs) -> Result<Outcome, InputError> {
@@ -50,9 +50,13 @@ pub(crate) fn run(cli: &Cli, args: &BasinArgs) -> Result<Outcome, InputError> {
     let points = run::count(starts.design.count(), &axes::arithmetic(&starts.design), &args.storage)?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
     let warnings = inputs::outside_range(&loaded, &parameters);
-    let provenance = origin::provenance(&loaded, "basin", (&parameters, &starts.guess), flags(args));
+    if let Some(path) = &args.plot {
+        plots::check("--plot", path)?;
+        starts.drawable()?;
+    }
+    let provenance = provenance::of(&cli.run, &loaded, &parameters);
     let columns = starts.columns();
-    let manifest = Manifest::new(Kind::Basin, &columns, points, (&provenance, Value::Null));
+    let manifest = Manifest::new(Kind::Basin, &columns, points, &provenance);
     let (pool, interrupt) = (Pool::new(args.storage.threads.unwrap_or(0))?, on_interrupt());
     let memory = loaded.memory();
     let accuracy = inputs::accuracy(&args.search)?;
@@ -62,7 +66,7 @@ pub(crate) fn run(cli: &Cli, args: &BasinArgs) -> Result<Outcome, InputError> {
     let (steps, periods) = (args.steps, args.periods);
     let settings = Settings { request, steps, periods, interrupt: interrupt.clone() };
     let basin = Basin::new(loaded.compiled, settings, &starts.guess)?;
-    let asked = Asked { manifest: manifest.clone(), provenance, storage: &args.storage, chunk: STARTS };
+    let asked = Asked { manifest: manifest.clone(), provenance: &provenance, storage: &args.storage, chunk: STARTS };
     let ran = asked.run(|numbers| {
         let (first, count) = (numbers.start, numbers.end - numbers.start);
         let group = |group: u64| {
@@ -73,20 +77,12 @@ pub(crate) fn run(cli: &Cli, args: &BasinArgs) -> Result<Outcome, InputError> {
         Ok(rows.map(|rows| with_rows(&columns, rows.into_iter().flatten().collect())))
     })?;
     let summary =
-        Summary { model: &loaded.spec.name, manifest: &manifest, storage: &args.storage, warnings: &warnings, began };
-    Ok(summary.print(&ran, cli.json, |table| starts.findings(table)))
-}
-
-/// What the provenance says of the flags.
-fn flags(args: &BasinArgs) -> Vec<(&'static str, toml::Value)> {
-    let mut flags = vec![
-        ("over", origin::list(&args.over)),
-        ("steps", origin::count(args.steps as u64)),
-        ("periods", origin::count(args.periods as u64)),
-    ];
-    flags.extend(args.search.tol.map(|tol| ("tol", tol.into())));
-    flags.extend(args.search.method.clone().map(|method| ("method", method.into())));
-    flags
+        Summary { provenance: &provenance, manifest: &manifest, storage: &args.storage, warnings: &warnings, began };
+    let outcome = summary.print(&ran, cli.json, |table| starts.findings(table));
+    if let (Some(path), Ran::Complete(table)) = (&args.plot, &ran) {
+        plots::save("--plot", path, &starts.picture(table), &provenance);
+    }
+    Ok(outcome)
 }
 
 impl<'l> Starts<'l> {

@@ -16,12 +16,13 @@ pub(crate) fn run(cli: &Cli, args: &MergeArgs) -> Result<Outcome, InputError> {
     let table = finish(manifest.kind, rows);
     run::save(&table, &args.out, &provenance);
     if cli.json {
-        output::json(&json!({
+        let found = json!({
             "model": provenance.model,
             "status": "complete",
             "points": manifest.points,
             "folders": folders.len(),
-        }));
+        });
+        output::result(&provenance, found);
     } else if !output::lost() {
         output::print(&format!(
             "{} · {} · {} points from {} folders\nwritten: {}\n",

@@ -5,7 +5,7 @@ mod axes;
 mod basin;
 mod columns;
 mod merge;
-mod origin;
+mod picture;
 mod run;
 mod summary;
 mod sweep;

@@ -19,7 +19,7 @@ const MOST_THREADS: usize = 1024;
 pub(super) struct Asked<'a> {
     /// What is studied; chunks and shard are those of the flags.
     pub(super) manifest: Manifest,
-    pub(super) provenance: Provenance,
+    pub(super) provenance: &'a Provenance,
     pub(super) storage: &'a StorageArgs,
     /// Points of a chunk, where nobody says otherwise.
     pub(super) chunk: u64,
@@ -90,7 +90,7 @@ impl Asked<'_> {
             Some(path) => Some(Folder::open(path, self.manifest.clone(), self.storage.resume)?),
             None => None,
         };
-        let progress = Progress::new(self.manifest.own_points(), "points");
+        let progress = Progress::new(self.manifest.own_points(), "points", output::is_quiet());
         let (mut all, mut done) = (self.manifest.table(), 0);
         for chunk in self.manifest.own() {
             let numbers = self.manifest.rows(chunk);
@@ -122,12 +122,12 @@ impl Asked<'_> {
         }
         if let Some(folder) = folder {
             for (format, ending) in [(Format::Csv, "csv"), (Format::Parquet, "parquet")] {
-                let bytes = table::bytes(table, format, &self.provenance).map_err(|e| InputError(e.to_string()))?;
+                let bytes = table::bytes(table, format, self.provenance).map_err(|e| InputError(e.to_string()))?;
                 folder.put(&format!("{}.{ending}", self.manifest.kind.name()), &bytes)?;
             }
         }
         if let Some(path) = &self.storage.out {
-            save(table, path, &self.provenance);
+            save(table, path, self.provenance);
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use super::args::StorageArgs;
 use super::run::Ran;
 use crate::cli::{Outcome, output};
+use crate::provenance::Provenance;
 use crate::study::{Manifest, Shard};
 use crate::table::{Table, Values};
 use serde_json::{Map, Value, json};
@@ -10,7 +11,7 @@ use std::time::Instant;
 
 /// A study that has ended.
 pub(super) struct Summary<'a> {
-    pub(super) model: &'a str,
+    pub(super) provenance: &'a Provenance,
     pub(super) manifest: &'a Manifest,
     pub(super) storage: &'a StorageArgs,
     pub(super) warnings: &'a [String],
@@ -32,8 +33,8 @@ impl Summary<'_> {
             Ran::Interrupted(done) => {
                 let message = self.interrupted(*done);
                 if json {
-                    let status = json!({ "model": self.model, "status": "interrupted", "message": message, "points": points, "done": done });
-                    output::json(&status);
+                    let status = json!({ "model": self.provenance.model, "status": "interrupted", "message": message, "points": points, "done": done });
+                    output::result(self.provenance, status);
                 }
                 output::error(&message);
                 return Outcome::Interrupted;
@@ -43,7 +44,7 @@ impl Summary<'_> {
         if json {
             let status = if shard == Shard::default() { "complete" } else { "shard" };
             let mut all = Map::new();
-            all.insert("model".to_owned(), self.model.into());
+            all.insert("model".to_owned(), self.provenance.model.clone().into());
             all.insert("status".to_owned(), status.into());
             all.insert("points".to_owned(), points.into());
             all.insert("computed".to_owned(), table.rows().into());
@@ -52,10 +53,11 @@ impl Summary<'_> {
             if self.storage.dir.is_none() && self.storage.out.is_none() {
                 all.insert("columns".to_owned(), columns(table));
             }
-            output::json(&all);
+            output::result(self.provenance, Value::Object(all));
         } else {
             let part = if shard == Shard::default() { String::new() } else { format!(", shard {shard} of {points}") };
-            let mut all = format!("{} · {} · {} points{part}\n", self.model, self.manifest.kind.name(), table.rows());
+            let mut all =
+                format!("{} · {} · {} points{part}\n", self.provenance.model, self.manifest.kind.name(), table.rows());
             for warning in self.warnings {
                 all += &format!("warning: {warning}\n");
             }

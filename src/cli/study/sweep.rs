@@ -1,17 +1,18 @@
 //! `gaitc sweep MODEL`: the gait, or the optimum of a problem, at each of many points.
 
 use super::args::SweepArgs;
+use super::axes;
 use super::columns::{Cell, Columns, integers, numbers, texts, with_rows};
-use super::run::{self, Asked};
+use super::run::{self, Asked, Ran};
 use super::summary::{Findings, Summary};
-use super::{axes, origin};
 use crate::cli::args::Cli;
 use crate::cli::optimize::{on_interrupt, status};
-use crate::cli::{InputError, Outcome, inputs, output};
+use crate::cli::{InputError, Outcome, inputs, output, plots, provenance};
 use crate::load::{Loaded, load};
 use crate::problem::{Start, assemble};
 use crate::study::{Kind, Manifest};
 use crate::table::Table;
+use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::flags::{parse_assignment, parse_values};
 use gaitc_compiler::front::{format_quantity, format_si};
 use gaitc_compiler::ir;
@@ -28,15 +29,15 @@ const GAITS: u64 = 100;
 const OPTIMA: u64 = 10;
 
 /// A sweep as it was asked for.
-struct Sweep<'l> {
-    loaded: &'l Loaded,
+pub(super) struct Sweep<'l> {
+    pub(super) loaded: &'l Loaded,
     /// All parameters; those that are swept have the spec's values.
     parameters: Vec<f64>,
     guess: Vec<f64>,
-    swept: Vec<usize>,
-    design: Design,
+    pub(super) swept: Vec<usize>,
+    pub(super) design: Design,
     period: usize,
-    problem: Option<ir::Problem>,
+    pub(super) problem: Option<ir::Problem>,
     accuracy: Accuracy,
     interrupt: Interrupt,
 }
@@ -50,13 +51,16 @@ pub(crate) fn run(cli: &Cli, args: &SweepArgs) -> Result<Outcome, InputError> {
     let points = run::count(sweep.design.count(), &axes::arithmetic(&sweep.design), &args.storage)?;
     let mut warnings = inputs::outside_range(&loaded, &sweep.parameters);
     warnings.extend(sweep.outside());
-    let provenance = origin::provenance(&loaded, "sweep", (&sweep.parameters, &sweep.guess), flags(args));
-    let details = json!({ "problem": sweep.problem.as_ref().map(origin::problem), "swept": &sweep.swept });
+    if let Some(path) = &args.plot {
+        plots::check("--plot", path)?;
+        sweep.drawable()?;
+    }
+    let provenance = provenance::of(&cli.run, &loaded, &sweep.parameters);
     let columns = sweep.columns();
-    let manifest = Manifest::new(Kind::Sweep, &columns, points, (&provenance, details));
+    let manifest = Manifest::new(Kind::Sweep, &columns, points, &provenance);
     let pool = Pool::new(args.storage.threads.unwrap_or(0))?;
     let chunk = if sweep.problem.is_some() { OPTIMA } else { GAITS };
-    let asked = Asked { manifest: manifest.clone(), provenance, storage: &args.storage, chunk };
+    let asked = Asked { manifest: manifest.clone(), provenance: &provenance, storage: &args.storage, chunk };
     let gaits = match &sweep.problem {
         Some(_) => None,
         None => Some(sweep.gaits()?),
@@ -69,23 +73,12 @@ pub(crate) fn run(cli: &Cli, args: &SweepArgs) -> Result<Outcome, InputError> {
         Ok(rows.map(|rows| with_rows(&columns, rows)))
     })?;
     let summary =
-        Summary { model: &loaded.spec.name, manifest: &manifest, storage: &args.storage, warnings: &warnings, began };
-    Ok(summary.print(&ran, cli.json, |table| sweep.findings(table)))
-}
-
-/// What the provenance says of the flags.
-fn flags(args: &SweepArgs) -> Vec<(&'static str, toml::Value)> {
-    let mut flags = vec![("over", origin::list(&args.over))];
-    if let Some(count) = args.sobol {
-        flags.extend([("sobol", origin::count(count)), ("seed", origin::count(args.seed))]);
+        Summary { provenance: &provenance, manifest: &manifest, storage: &args.storage, warnings: &warnings, began };
+    let outcome = summary.print(&ran, cli.json, |table| sweep.findings(table));
+    if let (Some(path), Ran::Complete(table)) = (&args.plot, &ran) {
+        plots::save("--plot", path, &*sweep.picture(table), &provenance);
     }
-    match &args.optimize {
-        Some(problem) => flags.push(("optimize", problem.clone().into())),
-        None => flags.push(("period", origin::count(args.period as u64))),
-    }
-    flags.extend(args.search.tol.map(|tol| ("tol", tol.into())));
-    flags.extend(args.search.method.clone().map(|method| ("method", method.into())));
-    flags
+    Ok(outcome)
 }
 
 impl<'l> Sweep<'l> {
@@ -152,7 +145,7 @@ impl<'l> Sweep<'l> {
         columns.parameters(self.loaded, self.swept.iter().copied());
         columns.text("status", "How the search ended.");
         if let Some(problem) = &self.problem {
-            let unit = problem.objective_dimension.to_string();
+            let unit = si_text(problem.objective_dimension);
             columns.number(("objective", "_"), &unit, &format!("Best value of {}.", problem.objective_text));
             columns.parameters(self.loaded, problem.vary.iter().map(|vary| vary.parameter));
         } else {
@@ -287,6 +280,15 @@ impl<'l> Sweep<'l> {
         Findings { text, json }
     }
 
+    /// Name and unit of the column by which points are ranked: the objective, or the first measure.
+    pub(super) fn ranked(&self) -> (String, String) {
+        match (&self.problem, self.loaded.spec.measures.first()) {
+            (Some(problem), _) => ("objective".to_owned(), si_text(problem.objective_dimension)),
+            (None, Some(measure)) => (measure.name.clone(), measure.unit.clone()),
+            (None, None) => (String::new(), String::new()),
+        }
+    }
+
     /// The row with the best objective, or with the largest first measure of all stable gaits.
     fn best(&self, table: &Table, stable: &[i64]) -> Option<(usize, String, f64, String)> {
         let (name, column, largest) = match &self.problem {
@@ -339,4 +341,9 @@ fn reasons(statuses: &[String], wanted: &str) -> String {
     }
     let rows = reasons.into_iter().map(|(reason, count)| vec![reason.to_owned(), count.to_string()]);
     output::table(&["without", "points"], rows)
+}
+
+/// The SI unit of a dimension, as people write it.
+fn si_text(dimension: Dimension) -> String {
+    format_si(1.0, dimension).split_once(' ').map_or_else(String::new, |(_, unit)| unit.to_owned())
 }
