@@ -5,6 +5,7 @@
 mod basin;
 #[path = "../common/mod.rs"]
 mod common;
+mod dask;
 mod interrupted;
 mod refused;
 mod sweep;
