@@ -143,7 +143,6 @@ fn wrong_input_is_explained() {
     sweep(&["--over", "omega=15,, 20 rad/s"], &["missing"]);
     sweep(&["--over", "phi=1..45 deg:3"], &["no parameter is named `phi`"]);
     sweep(&["--over", "psi=1..45 deg:3", "--over", "psi=1, 2 deg"], &["given twice"]);
-    sweep(&["--over", "psi=1..45 deg:3", "--set", "psi=1 deg"], &["`psi` is swept"]);
     sweep(&["--over", "psi=1..45 deg:3", "--sobol", "10"], &["leave away what stands behind `:`"]);
     sweep(&["--over", "psi=1, 2 deg", "--sobol", "10"], &["needs a range"]);
     sweep(&["--over", "psi=1..45 deg", "--sobol", "0"], &["--sobol 0"]);

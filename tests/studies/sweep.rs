@@ -120,4 +120,8 @@ fn people_are_told_what_was_found_and_where_it_is() {
     assert!(origin["run"]["set"]["l_b"].as_str().unwrap().ends_with(" m"), "{origin:#}");
     assert!(rest.starts_with("point,psi [rad],omega [rad/s],status,route,duration [s],stable,"), "{rest}");
     assert_eq!(rest.lines().count(), 25);
+    // What made it makes it again.
+    let again = at(folder.path(), "again.csv");
+    done(&["run", &file, "--out", &again]);
+    assert!(fs::read_to_string(&again).unwrap() == table);
 }

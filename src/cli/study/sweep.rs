@@ -31,7 +31,7 @@ const OPTIMA: u64 = 10;
 /// A sweep as it was asked for.
 pub(super) struct Sweep<'l> {
     pub(super) loaded: &'l Loaded,
-    /// All parameters; those that are swept have the spec's values.
+    /// All parameters; those that are swept have the values at which a gait begins that is followed to a point.
     parameters: Vec<f64>,
     guess: Vec<f64>,
     pub(super) swept: Vec<usize>,
@@ -90,14 +90,6 @@ impl<'l> Sweep<'l> {
             inputs::once(&mut seen, "--over", name)?;
             swept.push(parameter);
             over.push((name, parse_values(values, loaded.spec.parameters[parameter].dimension)?));
-        }
-        for text in &args.model.set {
-            let (name, _) = parse_assignment(text)?;
-            if seen.contains(&name) {
-                return Err(InputError(format!(
-                    "--set: `{name}` is swept\n  help: leave one of --set and --over away"
-                )));
-            }
         }
         let design = match args.sobol {
             Some(count) => axes::sobol(&over, count, args.seed)?,
