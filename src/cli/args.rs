@@ -2,6 +2,7 @@
 
 use super::continuation::ContinueArgs;
 use super::whole::whole;
+use super::study::{BasinArgs, MergeArgs, SweepArgs};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -53,6 +54,12 @@ pub(crate) enum Command {
     Continue(ContinueArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
+    /// Find the gait, or the optimum, at each of many points
+    Sweep(Box<SweepArgs>),
+    /// Find which starts lead to which gait
+    Basin(Box<BasinArgs>),
+    /// Join the shards of a sweep or basin
+    Merge(MergeArgs),
     /// Measure every generated derivative against an independent route
     Verify(VerifyArgs),
     /// Make a cargo project with a model of your own

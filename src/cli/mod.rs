@@ -23,6 +23,7 @@ mod schema;
 mod show;
 mod simulate;
 mod stops;
+mod study;
 mod verify;
 mod whole;
 
@@ -125,5 +126,8 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Compare(args) => compare::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
+        Command::Sweep(args) => study::sweep(cli, args),
+        Command::Basin(args) => study::basin(cli, args),
+        Command::Merge(args) => study::merge(cli, args),
     }
 }

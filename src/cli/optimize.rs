@@ -15,6 +15,7 @@ use crate::load::load;
 use crate::problem::{Start, assemble, uncertain};
 use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve, solve_robust};
 use report::Report;
+pub(super) use report::status;
 
 /// More starts than this tell nothing new and would run for days.
 const MOST_STARTS: usize = 100_000;

@@ -45,7 +45,7 @@ mod rows;
 mod scene;
 mod search;
 mod second_order;
-mod sobol;
+pub(crate) mod sobol;
 mod solution;
 mod solver;
 mod spectrum;

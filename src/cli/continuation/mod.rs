@@ -64,7 +64,7 @@ pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError>
     let report = Report { loaded: &loaded, parameters: &parameters, over, range, warnings: &warnings, shown, args };
     match &outcome {
         ContinuationOutcome::NoStart(search) => {
-            let (status, message) = (gait::status(&search.status), report.no_start(&search.message));
+            let (status, message) = (search.status.name(), report.no_start(&search.message));
             report.print(cli.json.then_some(&provenance), (status, &message), &Diagram::default());
             Ok(Outcome::Without)
         }

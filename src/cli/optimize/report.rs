@@ -250,7 +250,7 @@ fn one(unit: &str) -> String {
 }
 
 /// The word for a status in JSON and text.
-pub(super) fn status(status: Status) -> &'static str {
+pub(in crate::cli) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",

@@ -66,7 +66,7 @@ impl Report<'_> {
     }
 
     fn status(&self) -> &'static str {
-        self.trajectory.stop.map_or("completed", stops::name)
+        self.trajectory.stop.map_or("completed", StopReason::name)
     }
 
     fn message(&self) -> String {
@@ -108,7 +108,7 @@ impl Report<'_> {
         let (run, spec) = (self.trajectory, &self.loaded.spec);
         let state = |values: &[f64]| named(self.state_names(), values);
         let stopped =
-            run.stop.map(|reason| json!({ "reason": stops::name(reason), "time": run.time, "state": state(&run.end) }));
+            run.stop.map(|reason| json!({ "reason": reason.name(), "time": run.time, "state": state(&run.end) }));
         json!({
             "model": spec.name,
             "status": self.status(),
