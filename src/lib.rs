@@ -2,6 +2,7 @@
 //! with them periodic gaits, their stability, and the fastest stable climber.
 
 pub mod cli;
+pub mod figures;
 pub mod files;
 pub mod load;
 pub mod models;

@@ -127,7 +127,8 @@ pub(crate) struct SearchArgs {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json"
+    after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json\n  \
+                  gaitc gait prescribed_length --plot multipliers=multipliers.svg --plot map=map.png"
 )]
 pub(crate) struct GaitArgs {
     #[command(flatten)]
@@ -141,6 +142,10 @@ pub(crate) struct GaitArgs {
     /// away (models without a mass matrix)
     #[arg(long, default_value_t = 1, value_name = "N")]
     pub(crate) segments: usize,
+    /// Draw as SVG or PNG: `multipliers` in the unit circle, or the return `map` with the orbit of the first guess; e.g.
+    /// --plot map=map.svg (without a kind: multipliers)
+    #[arg(long, value_name = "[KIND=]FILE")]
+    pub(crate) plot: Vec<String>,
 }
 
 #[derive(Debug, Args)]
@@ -193,7 +198,7 @@ pub(crate) struct OptimizeArgs {
     /// Write the trade-off curve as CSV
     #[arg(long, value_name = "FILE", requires = "trade")]
     pub(crate) csv: Option<PathBuf>,
-    /// Draw the trade-off curve as SVG
+    /// Draw the trade-off curve as SVG or PNG
     #[arg(long, value_name = "FILE", requires = "trade")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -1,8 +1,10 @@
 //! `gaitc gait MODEL`: a periodic gait, its stability and its measures.
 
+mod pictures;
+
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
-use super::{InputError, Outcome, inputs, output};
+use super::{InputError, Outcome, inputs, output, plots};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
@@ -32,6 +34,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     if args.segments == 0 || args.segments > MOST_SEGMENTS {
         return Err(InputError(format!("--segments {}: give a number from 1 to {MOST_SEGMENTS}", args.segments)));
     }
+    let plots = plots::wanted(&args.plot, &pictures::KINDS)?;
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
     let guess = inputs::guess(&loaded, &args.search)?;
@@ -49,6 +52,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     } else {
         output::print(&report.text());
     }
+    pictures::draw(&report, (args, &request, &guess), &plots)?;
     let answered = outcome.status == GaitStatus::Converged && !outcome.gait.as_ref().is_some_and(unmeasured);
     Ok(if answered { Outcome::Done } else { Outcome::Without })
 }

@@ -70,7 +70,7 @@ pub(super) fn run(
         if let Some(path) = &args.plot {
             let flags = [("trade", text.into()), ("points", (args.points as i64).into())];
             let provenance = plots::provenance(loaded, "optimize", &asked.start.parameters, flags);
-            plots::save("--plot", path, &report.picture(curve), &provenance);
+            plots::save(path, &report.picture(curve), &provenance);
         }
     }
     Ok(match outcome {
@@ -89,7 +89,7 @@ fn places(args: &OptimizeArgs) -> Result<(), InputError> {
         return Err(InputError("--csv and --plot name the same file\n  help: name two".to_owned()));
     }
     if let Some(path) = &args.plot {
-        plots::check("--plot", path)?;
+        plots::check(path)?;
     }
     if let Some(path) = &args.csv {
         files::try_place(path).map_err(|error| InputError(not_written(path, &error)))?;
