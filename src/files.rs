@@ -2,16 +2,19 @@
 
 use std::fs::{self, File};
 use std::io::{Error, ErrorKind, Result, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// More links than this, one behind the other, lead in a circle.
+const MOST_LINKS: usize = 40;
 
 /// Writes a file: first beside its place, then under its name, so that what stood there stays until the new contents are
-/// complete. A link is followed: the file that it names is replaced, not the link. What is no regular file (a pipe,
+/// complete. A link is followed, also one to a file that is not there yet: the file that it names is replaced, not the link. What is no regular file (a pipe,
 /// `/dev/stdout`) is written to as it is.
 ///
 /// # Errors
 /// Those of the file system; the old file is then untouched.
 pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
-    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let place = place_of(path)?;
     if fs::metadata(&place).is_ok_and(|known| !known.is_file()) {
         return fs::OpenOptions::new().write(true).open(&place)?.write_all(contents);
     }
@@ -39,7 +42,7 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
 /// # Errors
 /// Those of the file system.
 pub fn try_place(path: &Path) -> Result<()> {
-    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let place = place_of(path)?;
     match fs::metadata(&place) {
         Ok(known) if known.is_dir() => Err(Error::new(ErrorKind::IsADirectory, "this is a folder")),
         Ok(known) if !known.is_file() => Ok(()),
@@ -50,4 +53,23 @@ pub fn try_place(path: &Path) -> Result<()> {
             fs::remove_file(&temporary)
         }
     }
+}
+
+/// The file that a path names, behind all links; it need not be there.
+fn place_of(path: &Path) -> Result<PathBuf> {
+    let mut place = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::canonicalize(&place) {
+            Ok(known) => return Ok(known),
+            Err(problem) if problem.kind() != ErrorKind::NotFound => return Err(problem),
+            Err(_) => {}
+        }
+        if !fs::symlink_metadata(&place).is_ok_and(|known| known.is_symlink()) {
+            return Ok(place);
+        }
+        // Where a relative link leads is counted from the folder that it stands in.
+        let target = fs::read_link(&place)?;
+        place = place.parent().unwrap_or(Path::new("")).join(target);
+    }
+    Err(Error::new(ErrorKind::InvalidInput, "links lead in a circle"))
 }

@@ -18,6 +18,8 @@ pub struct Loaded {
     pub spec: ir::Model,
     /// What can be observed along a run.
     pub observations: Observations,
+    /// Hash of the texts of the spec and its parts.
+    pub digest: String,
     /// Where the values come from; `None` is the text embedded at build time.
     pub file: Option<PathBuf>,
 }
@@ -68,11 +70,11 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
         return embedded(entry);
     }
     let parsed = front::parse_file(&path).map_err(|error| LoadError::Read { path: path.clone(), error })?;
-    let (spec, observations) = accept(parsed)?;
+    let (digest, (spec, observations)) = (parsed.digest(), accept(parsed)?);
     if fingerprint(&spec) != entry.compiled.info().fingerprint {
         return Err(LoadError::Stale(path));
     }
-    Ok(Loaded { compiled: entry.compiled, spec, observations, file: Some(path) })
+    Ok(Loaded { compiled: entry.compiled, spec, observations, digest, file: Some(path) })
 }
 
 /// A compiled model with the values embedded at build time.
@@ -81,11 +83,12 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
 /// When the embedded text does not match the compiled equations (a generated file was not rebuilt).
 pub fn embedded(entry: &Entry) -> Result<Loaded, LoadError> {
     let path = PathBuf::from(format!("specs/{}.toml", entry.compiled.info().name));
-    let (spec, observations) = accept(front::parse_with(&path, entry.spec, Library::Texts(entry.parts)))?;
+    let parsed = front::parse_with(&path, entry.spec, Library::Texts(entry.parts));
+    let (digest, (spec, observations)) = (parsed.digest(), accept(parsed)?);
     if fingerprint(&spec) != entry.compiled.info().fingerprint {
         return Err(LoadError::Stale(path));
     }
-    Ok(Loaded { compiled: entry.compiled, spec, observations, file: None })
+    Ok(Loaded { compiled: entry.compiled, spec, observations, digest, file: None })
 }
 
 fn find(name: &str, folder: &Path) -> Result<&'static Entry, LoadError> {

@@ -47,6 +47,11 @@ impl SourceMap {
         self.files.get(file.0 as usize).map_or(Path::new(""), |(path, _)| path)
     }
 
+    /// All texts in the order in which they were read.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|(_, text)| text.as_str())
+    }
+
     /// The text; empty for an id of another map.
     pub fn text(&self, file: FileId) -> &str {
         self.files.get(file.0 as usize).map_or("", |(_, text)| text)

@@ -18,8 +18,17 @@ pub(crate) struct Cli {
     /// Print JSON (SI units) instead of tables
     #[arg(long, global = true)]
     pub(crate) json: bool,
+    /// Say nothing on stderr but errors: no warnings, no progress
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Say on stderr where values come from and how long it took
+    #[arg(long, short, global = true)]
+    pub(crate) verbose: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
+    /// What of the command line makes the result, as a run file has it.
+    #[arg(skip)]
+    pub(crate) run: toml::Table,
 }
 
 #[derive(Debug, Subcommand)]
@@ -42,6 +51,12 @@ pub(crate) enum Command {
     New(NewArgs),
     /// Print the JSON Schema of specs, for editors
     Schema(SchemaArgs),
+    /// Do again what a run file says, or what made a result: JSON, CSV, Parquet, SVG, PNG or HTML
+    Run(super::run::RunArgs),
+    /// Print a script that completes commands and flags in a shell
+    Completions(super::completions::CompletionsArgs),
+    /// Write the manual pages
+    Man(super::man::ManArgs),
 }
 
 impl Command {

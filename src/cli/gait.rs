@@ -4,7 +4,7 @@ mod pictures;
 
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
-use super::{InputError, Outcome, inputs, output, plots};
+use super::{InputError, Outcome, inputs, output, plots, provenance};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
@@ -47,12 +47,13 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let outcome = find_gait(loaded.compiled, &request, &guess)?;
     let warnings = inputs::outside_range(&loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };
+    let provenance = provenance::of(&cli.run, &loaded, &parameters);
     if cli.json {
-        output::json(&report.json());
+        output::result(&provenance, report.json());
     } else {
         output::print(&report.text());
     }
-    pictures::draw(&report, (args, &request, &guess), &plots)?;
+    pictures::draw(&report, (&request, &guess), &plots, &provenance)?;
     let answered = outcome.status == GaitStatus::Converged && !outcome.gait.as_ref().is_some_and(unmeasured);
     Ok(if answered { Outcome::Done } else { Outcome::Without })
 }

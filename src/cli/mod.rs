@@ -4,23 +4,30 @@
 
 mod args;
 mod check;
+mod completions;
 mod explain;
 mod gait;
 mod guards;
 mod inputs;
+mod man;
 mod models;
 mod new;
 mod optimize;
 mod output;
 mod plots;
+mod provenance;
+mod run;
 mod schema;
 mod show;
 mod verify;
 
 use args::{Cli, Command};
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
+use output::Talk;
 use serde_json::json;
+use std::ffi::OsString;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// The exit code of a program that Ctrl-C ended: 128 and the number of the signal.
 const INTERRUPTED: u8 = 130;
@@ -48,7 +55,7 @@ impl<E: std::error::Error> From<E> for InputError {
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = match parse(std::env::args_os()) {
         Ok(cli) => cli,
         Err(message) => {
             if message.use_stderr() {
@@ -64,7 +71,10 @@ pub fn main() -> ExitCode {
             return if output::lost() { ExitCode::from(1) } else { ExitCode::SUCCESS };
         }
     };
-    match run(&cli) {
+    let begun = Instant::now();
+    let ended = run(&cli);
+    output::note(&format!("{:.2} s", begun.elapsed().as_secs_f64()));
+    match ended {
         Ok(_) if output::lost() => ExitCode::from(1),
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Without) => ExitCode::from(2),
@@ -79,8 +89,25 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Reads arguments, the program's name first.
+fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Cli, clap::Error> {
+    let mut command = Cli::command();
+    let matches = command.try_get_matches_from_mut(arguments)?;
+    let mut cli = Cli::from_arg_matches(&matches)?;
+    cli.run = provenance::run(&command, &matches);
+    Ok(cli)
+}
+
 fn run(cli: &Cli) -> Result<Outcome, InputError> {
+    output::talk(match (cli.quiet, cli.verbose) {
+        (true, _) => Talk::Quiet,
+        (false, true) => Talk::Verbose,
+        (false, false) => Talk::Normal,
+    });
     match &cli.command {
+        Command::Run(args) => run::run(cli, args),
+        Command::Completions(args) => completions::run(args),
+        Command::Man(args) => man::run(args),
         Command::Models => models::run(cli),
         Command::New(args) => new::run(cli, args),
         Command::Schema(args) => schema::run(args),

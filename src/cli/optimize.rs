@@ -10,7 +10,7 @@ mod trade;
 mod verdict;
 
 use super::args::{Cli, OptimizeArgs};
-use super::{INTERRUPTED, InputError, Outcome, inputs};
+use super::{INTERRUPTED, InputError, Outcome, inputs, provenance};
 use crate::load::load;
 use crate::problem::{Start, assemble};
 use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve, solve_robust};
@@ -45,9 +45,10 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
         interrupt: on_interrupt(),
         ..Settings::default()
     };
+    let provenance = provenance::of(&cli.run, &loaded, &parameters);
     let start = Start { parameters, section: inputs::guess(&loaded, &args.search)?, settings };
     if args.trade.is_some() {
-        return trade::run(&loaded, (spec, problem), start, (args, cli.json), &warnings);
+        return trade::run(&loaded, (spec, problem), start, (args, cli.json), (&warnings, &provenance));
     }
     let assembled = assemble(&loaded, &spec, &problem, start);
     let (mut solution, robust) = if uncertain.is_empty() {
@@ -63,7 +64,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     let robust = robust.as_ref().map(|found| robust::Shown { uncertain: &uncertain, found });
     let report = Report { spec: &spec, problem: &problem, solution: &solution, robust };
     if cli.json {
-        report.print_json();
+        report.print_json(&provenance);
     } else {
         report.print_text();
     }

@@ -1,9 +1,11 @@
 //! Writing to the terminal: tables, JSON, errors. A closed pipe ends the program quietly.
 
+use crate::provenance::{self, Provenance};
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
+use serde_json::Value;
 use std::io::{ErrorKind, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 /// Whether something that was printed did not arrive.
 static LOST: AtomicBool = AtomicBool::new(false);
@@ -31,11 +33,56 @@ pub(super) fn lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }
 
+/// How much is said on stderr besides errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Talk {
+    /// Nothing.
+    Quiet,
+    /// Warnings, and progress where stderr is a terminal.
+    Normal,
+    /// Also where values come from and how long the work took.
+    Verbose,
+}
+
+static TALK: AtomicU8 = AtomicU8::new(1);
+
+/// Sets how much is said.
+pub(super) fn talk(talk: Talk) {
+    TALK.store(talk as u8, Ordering::Relaxed);
+}
+
+/// Whether nothing but errors may be said.
+pub(super) fn is_quiet() -> bool {
+    TALK.load(Ordering::Relaxed) == Talk::Quiet as u8
+}
+
+/// Says something that is no part of the result but that the user has to know.
+pub(super) fn warning(message: &str) {
+    if !is_quiet() {
+        error(&format!("warning: {message}"));
+    }
+}
+
+/// Says something to those who want to know more.
+pub(super) fn note(message: &str) {
+    if TALK.load(Ordering::Relaxed) == Talk::Verbose as u8 {
+        let _ = writeln!(anstream::stderr(), "{message}");
+    }
+}
+
 /// Prints an error to stderr, with `error:` before it unless it is a rendered diagnostic, which has its own.
 pub(super) fn error(message: &str) {
     let head = if message.starts_with("error") || message.starts_with("warning") { "" } else { "error: " };
     let mut err = anstream::stderr();
     let _ = writeln!(err, "{head}{}", message.trim_end());
+}
+
+/// Prints a result as JSON, with where it comes from.
+pub(super) fn result(provenance: &Provenance, mut result: Value) {
+    if let Value::Object(all) = &mut result {
+        all.insert(provenance::KEY.to_owned(), provenance.json());
+    }
+    json(&result);
 }
 
 /// Prints a value as JSON.

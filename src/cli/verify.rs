@@ -2,7 +2,7 @@
 
 use super::args::{Cli, VerifyArgs};
 use super::guards::Guards;
-use super::{InputError, Outcome, output};
+use super::{InputError, Outcome, output, provenance};
 use crate::load::{Loaded, load};
 use crate::verify::{Checked, verify};
 use gaitc_runtime::orbit::{Gait, GaitRequest, GaitStatus, find_gait};
@@ -32,13 +32,14 @@ pub(super) fn run(cli: &Cli, args: &VerifyArgs) -> Result<Outcome, InputError> {
                 "samples": c.samples,
             })
         };
-        output::json(&json!({
+        let answer = json!({
             "model": args.model,
             "derivatives": checked.iter().map(one).collect::<Vec<_>>(),
             "guards": guards.as_ref().map(Guards::events_json),
             "also_zero": guards.as_ref().map(Guards::also_zero_json),
             "no_gait": gait.as_ref().err(),
-        }));
+        });
+        output::result(&provenance::of(&cli.run, &loaded, &loaded.parameters()), answer);
     } else {
         let row = |c: &Checked| {
             let digits = format!("{:.1}", c.digits);

@@ -25,6 +25,14 @@ pub fn format_si(value: f64, dimension: Dimension) -> String {
     with_unit(value, &si_unit(dimension))
 }
 
+/// The SI value in that unit with all its digits: reading the text gives the same bits.
+pub fn format_exact(value: f64, dimension: Dimension) -> String {
+    match si_unit(dimension).as_str() {
+        "" | "1" => format!("{value}"),
+        unit => format!("{value} {unit}"),
+    }
+}
+
 /// The SI value `value_si` as a number of `unit_text`; unchanged where that is no unit.
 pub fn in_unit(value_si: f64, unit_text: &str) -> f64 {
     parse_unit(unit_text).map_or(value_si, |unit| unit.from_si(value_si))

@@ -18,6 +18,8 @@ pub(crate) const SPEC: &[&str] = &[
     "section",
     "measures",
     "problems",
+    "drawing",
+    "published",
 ];
 
 /// Those that only a spec can have, and why.
@@ -50,6 +52,12 @@ pub(crate) const SURFACE: &[&str] = &["mode", "guard", "direction", "doc"];
 pub(crate) const SECTION: &[&str] = &["after", "before", "at", "coordinates", "embed", "start", "symmetry", "doc"];
 /// Of a measure.
 pub(crate) const MEASURE: &[&str] = &["expr", "unit", "doc"];
+/// Of `[drawing]`.
+pub(crate) const DRAWING: &[&str] = &["velocity", "points", "links", "panels"];
+/// Of a point of `[drawing.points]`.
+pub(crate) const DRAWN_POINT: &[&str] = &["at", "modes", "held", "doc"];
+/// Of `[published.NAME]`.
+pub(crate) const PUBLISHED: &[&str] = &["doc", "source", "set", "start", "measures", "section"];
 /// The most maps that one gait can be made of: longer periods are not gaits that anybody could tell from chaos.
 pub const LONGEST_PERIOD: usize = 1000;
 /// Of `[problems.NAME]`.

@@ -26,9 +26,10 @@ pub mod units;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Model;
+use crate::ir::canonical::hex_digest;
 use crate::source::{FileId, SourceMap, Span};
 pub use check::{Checked, check_file, may_be_spec};
-pub use format::{format_number, format_quantity, format_si, in_unit};
+pub use format::{format_exact, format_number, format_quantity, format_si, in_unit};
 pub use keys::LONGEST_PERIOD;
 pub use names::{is_module_name, suggest};
 pub use observe::Observations;
@@ -59,6 +60,15 @@ pub struct Parsed {
     pub parts: Vec<String>,
     /// The spec as it was written, joined with its parts, for `show`; `None` without a model.
     pub(crate) spec: Option<Arc<spec::Spec>>,
+}
+
+impl Parsed {
+    /// Hash of everything that was read, the spec and its parts: 64 hexadecimal digits. Another text is another hash, also where the
+    /// equations are the same.
+    pub fn digest(&self) -> String {
+        let digests: String = self.sources.texts().map(|text| hex_digest(text.as_bytes())).collect();
+        hex_digest(digests.as_bytes())
+    }
 }
 
 /// Reads a spec from a file, and its parts from the file's folder.

@@ -6,7 +6,7 @@ use super::parser::parse_expression;
 use super::spec::{Equation, Spec};
 use crate::dimension::Dimension;
 use crate::front::si_unit;
-use crate::ir::{Graph, Observation, Observer};
+use crate::ir::{Drawing, Graph, Observation, Observer};
 use crate::source::SourceMap;
 use std::sync::Arc;
 
@@ -26,6 +26,11 @@ impl Observations {
     /// The names of `[let]`, in the order of the spec, then of its parts.
     pub fn named(&self) -> &[Observation] {
         &self.observed.lets
+    }
+
+    /// How the model is drawn, where its spec says it.
+    pub fn drawing(&self) -> Option<&Drawing> {
+        self.observed.drawing.as_ref()
     }
 
     /// The graph that the expressions of observations stand in.

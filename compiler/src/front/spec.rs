@@ -24,6 +24,8 @@ pub(crate) struct Spec {
     pub(crate) section: Option<Section>,
     pub(crate) measures: Vec<Named<Measure>>,
     pub(crate) problems: Vec<Named<Problem>>,
+    pub(crate) drawing: Option<Drawing>,
+    pub(crate) published: Vec<Named<Published>>,
     /// Parameters of parts whose place a let has taken, each by the name of that let.
     pub(crate) fixed: Vec<Named<Parameter>>,
 }
@@ -174,6 +176,66 @@ pub(crate) struct Problem {
     pub(crate) period: usize,
 }
 
+/// How the machine is drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Drawing {
+    pub(crate) span: Span,
+    /// Of the body: to the right, and up.
+    pub(crate) velocity: Option<[Equation; 2]>,
+    pub(crate) points: Vec<Named<DrawnPoint>>,
+    /// Names of points, `body` among them.
+    pub(crate) links: Vec<[Text; 2]>,
+    /// Curves of one axis each.
+    pub(crate) panels: Vec<Vec<Equation>>,
+}
+
+/// A point seen from the body.
+#[derive(Clone, Debug)]
+pub(crate) struct DrawnPoint {
+    pub(crate) at: Option<[Equation; 2]>,
+    /// The modes in which it is there; all of them without.
+    pub(crate) modes: Option<Vec<Text>>,
+    pub(crate) held: bool,
+    pub(crate) doc: String,
+}
+
+/// Numbers that others have published.
+#[derive(Clone, Debug)]
+pub(crate) struct Published {
+    pub(crate) doc: String,
+    pub(crate) source: Option<Text>,
+    pub(crate) set: Vec<Named<Text>>,
+    pub(crate) start: Vec<Named<Text>>,
+    pub(crate) measures: Vec<Named<Text>>,
+    pub(crate) section: Vec<Named<Text>>,
+}
+
+impl Drawing {
+    /// Its expressions.
+    pub(crate) fn equations(&self) -> impl Iterator<Item = &Equation> {
+        let points = self.points.iter().filter_map(|point| point.value.at.as_ref()).flatten();
+        self.velocity.iter().flatten().chain(points).chain(self.panels.iter().flatten())
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn equations_mut(&mut self) -> impl Iterator<Item = &mut Equation> {
+        let points = self.points.iter_mut().filter_map(|point| point.value.at.as_mut()).flatten();
+        self.velocity.iter_mut().flatten().chain(points).chain(self.panels.iter_mut().flatten())
+    }
+}
+
+impl Published {
+    /// Everything in it that has a name elsewhere.
+    pub(crate) fn quantities(&self) -> impl Iterator<Item = &Named<Text>> {
+        self.set.iter().chain(&self.start).chain(&self.measures).chain(&self.section)
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn quantities_mut(&mut self) -> impl Iterator<Item = &mut Named<Text>> {
+        self.set.iter_mut().chain(&mut self.start).chain(&mut self.measures).chain(&mut self.section)
+    }
+}
+
 impl Spec {
     /// Every expression of the spec, for checks that hold everywhere.
     pub(crate) fn equations(&self) -> impl Iterator<Item = &Equation> {
@@ -196,7 +258,7 @@ impl Spec {
             .problems
             .iter()
             .flat_map(|item| item.value.objective.iter().map(|(_, equation)| equation).chain(&item.value.subject_to));
-        let results = measures.chain(problems);
+        let results = measures.chain(problems).chain(self.drawing.iter().flat_map(Drawing::equations));
         lets.chain(functions)
             .chain(flows)
             .chain(masses)

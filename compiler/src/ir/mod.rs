@@ -9,13 +9,17 @@
 //! - [`Measure`]s: once, after a map, from the values of the functionals.
 
 pub mod canonical;
+mod drawing;
 pub mod eval;
 pub mod graph;
 mod observation;
+mod published;
 
 use crate::dimension::Dimension;
+pub use drawing::{Drawing, DrawnPoint, Joint, Plane};
 pub use graph::{Binary, Graph, Node, NodeId, Symbol, Unary};
 pub use observation::{Observation, Observer, Point};
+pub use published::{Published, PublishedNumber, PublishedOf};
 
 /// A whole model. Indices in [`Symbol`]s point into the vectors of this struct.
 #[derive(Clone, Debug)]
@@ -48,6 +52,8 @@ pub struct Model {
     pub measures: Vec<Measure>,
     /// Optimisation problems: data, not equations; not part of the fingerprint.
     pub problems: Vec<Problem>,
+    /// Numbers that others have published: data as well.
+    pub published: Vec<Published>,
 }
 
 /// A named quantity that stays constant during a run.

@@ -4,8 +4,10 @@
 //! It knows tables, keys, types, names and what is required. Whether an expression can be read, a name is defined and
 //! dimensions fit is said by `gaitc check`. Keys come from the reader's own lists, so that the two cannot drift apart.
 
+mod drawing;
 mod equations;
 mod forms;
+mod published;
 mod quantities;
 mod results;
 mod uses;
@@ -58,6 +60,8 @@ fn key(key: &str) -> Option<Value> {
         "section" => equations::section(),
         "measures" => results::measures(),
         "problems" => results::problems(),
+        "drawing" => drawing::drawing(),
+        "published" => published::published(),
         _ => return None,
     })
 }
@@ -95,6 +99,9 @@ mod tests {
             keys::SECTION,
             keys::MEASURE,
             keys::PROBLEM,
+            keys::DRAWING,
+            keys::DRAWN_POINT,
+            keys::PUBLISHED,
             keys::SPEC,
         ]);
         assert_eq!(seen, tables.map(|keys| keys.len()).sum::<usize>());

@@ -1,10 +1,10 @@
 //! `gaitc gait --plot`: the multipliers, the return map.
 
 use super::Report;
-use crate::cli::args::GaitArgs;
 use crate::cli::{InputError, plots};
 use crate::figures::{self, Orbit};
 use crate::picture::Picture;
+use crate::provenance::Provenance;
 use gaitc_runtime::orbit::GaitRequest;
 use gaitc_runtime::return_map::{MapRequest, Sensitivity};
 use std::path::PathBuf;
@@ -22,14 +22,10 @@ pub(super) const KINDS: [(&str, Kind); 2] = [("multipliers", Kind::Multipliers),
 /// Draws what was asked for. Where there is no gait, the return map shows where the first guess leads.
 pub(super) fn draw(
     report: &Report<'_>,
-    (args, request, guess): (&GaitArgs, &GaitRequest<'_>, &[f64]),
+    (request, guess): (&GaitRequest<'_>, &[f64]),
     wanted: &[(Kind, PathBuf)],
+    provenance: &Provenance,
 ) -> Result<(), InputError> {
-    let mut flags = vec![("period", (args.period as i64).into())];
-    if !args.search.guess.is_empty() {
-        flags.push(("guess", args.search.guess.clone().into()));
-    }
-    let provenance = plots::provenance(report.loaded, "gait", report.parameters, flags);
     for (kind, path) in wanted {
         let picture: Box<dyn Picture> = match (kind, report.gait()) {
             (Kind::Multipliers, Some(gait)) => Box::new(figures::multipliers(report.loaded, gait)),
@@ -48,7 +44,7 @@ pub(super) fn draw(
                 Box::new(figures::return_map(report.loaded, &Orbit { map, start: guess, gait })?)
             }
         };
-        plots::save(path, &*picture, &provenance);
+        plots::save("--plot", path, &*picture, provenance);
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::robust::Shown;
 use super::verdict;
 use crate::cli::output;
+use crate::provenance::Provenance;
 use gaitc_compiler::front::{format_number, format_quantity, format_si, in_unit};
 use gaitc_compiler::ir::{Constraint, Model, Node, Problem, Sense, Symbol};
 use gaitc_runtime::optimize::{Active, ActiveKind, Sensitivity, Solution, Status};
@@ -21,40 +22,43 @@ pub(super) struct Report<'a> {
 }
 
 impl Report<'_> {
-    pub(super) fn print_json(&self) {
+    pub(super) fn print_json(&self, provenance: &Provenance) {
         let s = self.solution;
-        output::json(&json!({
-            "model": self.spec.name,
-            "problem": self.problem.name,
-            "status": status(s.status),
-            "message": s.message,
-            "notes": s.notes,
-            "objective": { "name": self.problem.objective_text, "value": s.objective },
-            "parameters": self.named_parameters(&s.parameters),
-            "section": self.named_section(&s.section),
-            "spectral_radius": s.spectral_radius,
-            "multipliers": s.multipliers.iter().map(|m| [m.re, m.im]).collect::<Vec<_>>(),
-            "kink": s.kink.map(|k| json!({ "multiplier": [k.multiplier.re, k.multiplier.im], "gap": k.gap })),
-            "measures": named(self.spec.measures.iter().map(|m| &m.name), &s.measures),
-            "active": s.active.iter().map(|a| json!({
-                "constraint": self.constraint(a.kind),
-                "multiplier": a.multiplier,
-            })).collect::<Vec<_>>(),
-            "sensitivities": s.sensitivities.iter().map(|q| json!({
-                "parameter": self.spec.parameters[q.parameter].name,
-                "derivative": q.derivative,
-                "per_percent": 0.01 * q.derivative * s.parameters[q.parameter],
-            })).collect::<Vec<_>>(),
-            "second_order": s.curvature.as_ref().map(|c| verdict::second_order_json(self.spec, c)),
-            "iterations": s.iterations,
-            "kkt_residual": s.kkt_residual,
-            "starts": { "run": s.starts.run, "converged": s.starts.converged },
-            "optima": self.optima_json(),
-            "conflict": self.conflict_json(),
-            "reached": self.reached_json(),
-            "robust": self.robust_json(),
-            "confirmation": s.confirmation.as_ref().map(verdict::confirmation_json),
-        }));
+        output::result(
+            provenance,
+            json!({
+                "model": self.spec.name,
+                "problem": self.problem.name,
+                "status": status(s.status),
+                "message": s.message,
+                "notes": s.notes,
+                "objective": { "name": self.problem.objective_text, "value": s.objective },
+                "parameters": self.named_parameters(&s.parameters),
+                "section": self.named_section(&s.section),
+                "spectral_radius": s.spectral_radius,
+                "multipliers": s.multipliers.iter().map(|m| [m.re, m.im]).collect::<Vec<_>>(),
+                "kink": s.kink.map(|k| json!({ "multiplier": [k.multiplier.re, k.multiplier.im], "gap": k.gap })),
+                "measures": named(self.spec.measures.iter().map(|m| &m.name), &s.measures),
+                "active": s.active.iter().map(|a| json!({
+                    "constraint": self.constraint(a.kind),
+                    "multiplier": a.multiplier,
+                })).collect::<Vec<_>>(),
+                "sensitivities": s.sensitivities.iter().map(|q| json!({
+                    "parameter": self.spec.parameters[q.parameter].name,
+                    "derivative": q.derivative,
+                    "per_percent": 0.01 * q.derivative * s.parameters[q.parameter],
+                })).collect::<Vec<_>>(),
+                "second_order": s.curvature.as_ref().map(|c| verdict::second_order_json(self.spec, c)),
+                "iterations": s.iterations,
+                "kkt_residual": s.kkt_residual,
+                "starts": { "run": s.starts.run, "converged": s.starts.converged },
+                "optima": self.optima_json(),
+                "conflict": self.conflict_json(),
+                "reached": self.reached_json(),
+                "robust": self.robust_json(),
+                "confirmation": s.confirmation.as_ref().map(verdict::confirmation_json),
+            }),
+        );
     }
 
     pub(super) fn named_parameters(&self, values: &[f64]) -> Map<String, Value> {

@@ -9,6 +9,7 @@ use crate::cli::{InputError, output, plots};
 use crate::files;
 use crate::load::Loaded;
 use crate::problem::{Start, assemble};
+use crate::provenance::Provenance;
 use gaitc_compiler::ir::{self, Binary};
 use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Status, TradeOutcome, trade};
 use quantity::Quantity;
@@ -34,7 +35,7 @@ pub(super) fn run(
     (mut spec, problem): (ir::Model, ir::Problem),
     mut start: Start,
     (args, json): (&OptimizeArgs, bool),
-    warnings: &[String],
+    (warnings, provenance): (&[String], &Provenance),
 ) -> Result<Outcome, InputError> {
     if !(2..=MOST_POINTS).contains(&args.points) {
         return Err(InputError(format!("--points {}: give a number from 2 to {MOST_POINTS}", args.points)));
@@ -59,7 +60,7 @@ pub(super) fn run(
     let outcome = trade(&|aim, origin| asked.problem(aim, origin), args.points)?;
     let report = Report { trade: &asked, outcome: &outcome, warnings };
     if json {
-        output::json(&report.json());
+        output::result(provenance, report.json());
     } else {
         output::print(&report.text());
     }
@@ -68,9 +69,7 @@ pub(super) fn run(
             save(path, report.csv(curve));
         }
         if let Some(path) = &args.plot {
-            let flags = [("trade", text.into()), ("points", (args.points as i64).into())];
-            let provenance = plots::provenance(loaded, "optimize", &asked.start.parameters, flags);
-            plots::save(path, &report.picture(curve), &provenance);
+            plots::save("--plot", path, &report.picture(curve), provenance);
         }
     }
     Ok(match outcome {
@@ -89,7 +88,7 @@ fn places(args: &OptimizeArgs) -> Result<(), InputError> {
         return Err(InputError("--csv and --plot name the same file\n  help: name two".to_owned()));
     }
     if let Some(path) = &args.plot {
-        plots::check(path)?;
+        plots::check("--plot", path)?;
     }
     if let Some(path) = &args.csv {
         files::try_place(path).map_err(|error| InputError(not_written(path, &error)))?;

@@ -43,7 +43,7 @@ impl Lowering<'_> {
     }
 
     /// A state that is not there and that a node depends on, conditions included.
-    fn used(&self, node: NodeId, has_state: &[bool]) -> Option<usize> {
+    pub(super) fn used(&self, node: NodeId, has_state: &[bool]) -> Option<usize> {
         if has_state.iter().all(|has| *has) {
             return None;
         }

@@ -8,6 +8,7 @@ mod clock;
 mod declare;
 mod definitions;
 mod derivative;
+mod drawing;
 mod dynamics;
 mod expr;
 mod fixed;
@@ -21,6 +22,7 @@ mod observed;
 mod on_section;
 mod order;
 mod problems;
+mod published;
 mod reach;
 mod sample;
 mod scope;
@@ -57,6 +59,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
     lowering.measures(spec);
     lowering.also_zero(spec);
     lowering.problems(spec);
+    lowering.published(spec);
     // What nothing needs is checked, but leaves no trace in the model.
     let lets = lowering.into_lets();
     let mut scratch = model.clone();
@@ -91,5 +94,6 @@ pub(crate) fn empty_model() -> Model {
         functionals: Vec::new(),
         measures: Vec::new(),
         problems: Vec::new(),
+        published: Vec::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! What can be observed along a run: every name of `[let]`. It is lowered into a graph of its own, with conditions decided by
+//! What can be observed along a run: every name of `[let]`, and what `[drawing]` has. It is lowered into a graph of its own, with conditions decided by
 //! a point's values, so that it leaves neither nodes nor switches in the model.
 
 use super::definitions::{Definitions, Lets};
@@ -10,7 +10,7 @@ use crate::dimension::Dimension;
 use crate::front::si_unit;
 use crate::front::spec::Spec;
 use crate::front::syntax::NameUse;
-use crate::ir::{Model, Observation};
+use crate::ir::{Drawing, Model, Observation};
 use crate::source::SourceMap;
 
 /// What can be observed, and what it takes to read more.
@@ -23,6 +23,7 @@ pub(crate) struct Observed {
     /// The names of `[let]` in that graph.
     pub(crate) lowered: Lets,
     pub(crate) lets: Vec<Observation>,
+    pub(crate) drawing: Option<Drawing>,
 }
 
 /// Lowers what can be observed along runs of a model.
@@ -41,8 +42,9 @@ pub(super) fn observed(
     };
     let mut lowering = Lowering::new(&mut names, scope, definitions, sources, diagnostics);
     let lets = lowering.observed_lets(spec);
+    let drawing = lowering.drawing(spec);
     let lowered = lowering.into_lets();
-    Observed { names, scope: scope.from_outside(), lowered, lets }
+    Observed { names, scope: scope.outside(), lowered, lets, drawing }
 }
 
 impl Lowering<'_> {

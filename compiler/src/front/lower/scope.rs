@@ -78,7 +78,7 @@ impl Scope {
     }
 
     /// The same names for a text that is neither the spec nor a part.
-    pub(super) fn from_outside(&self) -> Self {
+    pub(super) fn outside(&self) -> Self {
         Self { spec: None, ..self.clone() }
     }
 

@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::front::lexer::{TokenKind, tokens};
 use crate::front::names::{is_identifier, reserved, suggest};
 use crate::front::parser::shortened;
-use crate::front::spec::{Equation, MassRow, Named, Spec, Use};
+use crate::front::spec::{Drawing, Equation, MassRow, Named, Spec, Use};
 use crate::front::syntax::{Expr, ExprKind, Expression};
 use crate::front::text::Text;
 use crate::source::Span;
@@ -129,6 +129,10 @@ impl<'a> Renaming<'a> {
             problem.objective.iter_mut().for_each(|(_, equation)| self.equation(equation, &[]));
             problem.subject_to.iter_mut().for_each(|equation| self.equation(equation, &[]));
         }
+        let drawn = part.drawing.iter_mut().flat_map(Drawing::equations_mut);
+        drawn.for_each(|equation| self.equation(equation, &[]));
+        let published = part.published.iter_mut().flat_map(|item| item.value.quantities_mut());
+        published.for_each(|item| self.named(item));
     }
 
     /// Renames a definition; its place is then where the new name stands.
@@ -209,6 +213,9 @@ fn vocabulary<'p>(part: &'p Spec, fixed: impl Iterator<Item = &'p str>) -> HashM
     known.extend(used.filter(|name| reserved(&name.name).is_none()).map(|name| (name.name.clone(), None)));
     let vary = part.problems.iter().flat_map(|problem| &problem.value.vary);
     known.extend(vary.map(|item| (item.name.clone(), None)));
+    let published = part.published.iter().flat_map(|item| item.value.quantities());
+    let published = published.filter(|item| reserved(&item.name).is_none());
+    known.extend(published.map(|item| (item.name.clone(), None)));
     known.extend(part.modes.iter().flat_map(|mode| &mode.value.flow).map(|item| (item.name.clone(), None)));
     for item in part.functions.iter().flat_map(|function| &function.value.arguments) {
         known.remove(&item.value);

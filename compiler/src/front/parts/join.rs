@@ -2,7 +2,7 @@
 //! parts are there and names are resolved; here only what no expression can name is looked at.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::front::spec::{Mode, Named, Spec};
+use crate::front::spec::{Drawing, Mode, Named, Spec};
 
 /// Appends the tables of `part` to those of `owner`.
 pub(super) fn join(owner: &mut Spec, part: Spec, diagnostics: &mut Vec<Diagnostic>) {
@@ -20,6 +20,12 @@ pub(super) fn join(owner: &mut Spec, part: Spec, diagnostics: &mut Vec<Diagnosti
         }
     }
     add(&mut owner.problems, part.problems, "problem", diagnostics);
+    add(&mut owner.published, part.published, "publication", diagnostics);
+    match (&mut owner.drawing, part.drawing) {
+        (Some(drawing), Some(more)) => join_drawings(drawing, more, diagnostics),
+        (None, more) => owner.drawing = more,
+        (Some(_), None) => {}
+    }
 }
 
 /// The equations of one mode that stand in two files.
@@ -33,12 +39,31 @@ fn join_modes(owner: &mut Named<Mode>, part: Named<Mode>, diagnostics: &mut Vec<
     );
 }
 
+/// What two files say of how the machine is drawn.
+fn join_drawings(owner: &mut Drawing, part: Drawing, diagnostics: &mut Vec<Diagnostic>) {
+    if owner.velocity.is_some() && part.velocity.is_some() {
+        let message = "two files say how the body moves in the drawing";
+        let error = Diagnostic::error(Code::DefinedTwice, message).at(part.span, "");
+        diagnostics.push(error.see(owner.span, "first one").help("keep one `velocity`"));
+    }
+    owner.velocity = owner.velocity.take().or(part.velocity);
+    add(&mut owner.points, part.points, POINT, diagnostics);
+    owner.links.extend(part.links);
+    owner.panels.extend(part.panels);
+}
+
+/// What a drawing has.
+const POINT: &str = "drawn point";
+
 /// Appends items, and reports those whose name is there already.
 fn add<T>(items: &mut Vec<Named<T>>, more: Vec<Named<T>>, what: &str, diagnostics: &mut Vec<Diagnostic>) {
     for item in more {
         if let Some(first) = items.iter().find(|first| first.name == item.name) {
             let message = format!("`{}` has more than one {what}", item.name);
-            let message = if what == "problem" { format!("two problems are named `{}`", item.name) } else { message };
+            let message = match what {
+                "problem" | "publication" | POINT => format!("two {what}s are named `{}`", item.name),
+                _ => message,
+            };
             let error = Diagnostic::error(Code::DefinedTwice, message).at(item.span, "");
             diagnostics.push(error.see(first.span, "first one").help("remove one of the two"));
             continue;

@@ -1,8 +1,10 @@
 //! Document to spec: every table read, every key checked, every expression parsed. Names are not resolved here.
 
+mod drawing;
 mod equations;
 mod fields;
 mod misplaced;
+mod published;
 pub(crate) mod quantities;
 mod results;
 mod uses;
@@ -93,6 +95,8 @@ fn shared(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Spec {
         modes: equations::modes(entries("modes", sink), sink),
         measures: results::measures(entries("measures", sink), sink),
         problems: results::problems(entries("problems", sink), sink),
+        drawing: fields.get("drawing").and_then(|entry| drawing::drawing(entry, sink)),
+        published: published::published(entries("published", sink), sink),
         ..Spec::default()
     }
 }

@@ -1,0 +1,46 @@
+//! `gaitc man DIR`: a manual page for the program and one for each command, in the format that `man` reads.
+
+use super::args::Cli;
+use super::{InputError, Outcome, output};
+use crate::files;
+use clap::{Args, Command, CommandFactory};
+use clap_mangen::Man;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  gaitc man ~/.local/share/man/man1\n  man gaitc-optimize")]
+pub(crate) struct ManArgs {
+    /// Folder to write the pages to; made where it does not exist
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+pub(super) fn run(args: &ManArgs) -> Result<Outcome, InputError> {
+    let folder = &args.folder;
+    std::fs::create_dir_all(folder).map_err(|error| not_written(folder, &error))?;
+    let mut program = Cli::command().name("gaitc");
+    program.build();
+    let pages = std::iter::once(&program).chain(program.get_subcommands());
+    let mut written = 0;
+    for command in pages.filter(|command| command.get_name() != "help") {
+        let path = folder.join(format!("{}.1", title(command)));
+        page(command).and_then(|page| files::write(&path, &page)).map_err(|error| not_written(&path, &error))?;
+        written += 1;
+    }
+    output::print(&format!("{written} manual pages in {}\n", folder.display()));
+    Ok(Outcome::Done)
+}
+
+fn title(command: &Command) -> String {
+    command.get_display_name().unwrap_or(command.get_name()).to_owned()
+}
+
+fn page(command: &Command) -> std::io::Result<Vec<u8>> {
+    let mut page = Vec::new();
+    Man::new(command.clone()).title(title(command)).section("1").render(&mut page)?;
+    Ok(page)
+}
+
+fn not_written(path: &Path, error: &std::io::Error) -> InputError {
+    InputError(format!("cannot write `{}`: {error}\n  help: name a folder that can be written", path.display()))
+}
