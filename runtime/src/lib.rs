@@ -17,3 +17,4 @@ pub mod replay;
 pub mod return_map;
 pub mod scalar;
 pub mod sensitivity;
+pub mod trajectory;

@@ -8,6 +8,7 @@ pub use crate::also_zero::{AlsoZeroAt, Passage};
 pub use crate::closing::Open;
 use crate::model::ModelInfo;
 pub use crate::replay::{Images, Piece, PieceEnd, Plan, Points, SecondOrder};
+use crate::trajectory::{FollowRequest, Trajectory};
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
@@ -193,7 +194,7 @@ pub enum MapOutcome {
 }
 
 /// A wrong request.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RequestError {
     /// A slice has the wrong length.
@@ -248,6 +249,20 @@ pub enum RequestError {
     /// The model has no section, so it has no return map.
     #[error("model `{0}` has no [section], so it has no return map")]
     NoSection(&'static str),
+    /// How far to follow a run, or how densely to sample it, makes no sense.
+    #[error("{0}")]
+    Follow(&'static str),
+    /// A trajectory would hold more values than there is room for.
+    #[error("more than {limit} values; sample at longer intervals, or do not go beyond {time:.6} s")]
+    TooManyValues {
+        /// The most values of a trajectory.
+        limit: usize,
+        /// When it would hold so many (s).
+        time: f64,
+    },
+    /// A map that is no machine's has no trajectories.
+    #[error("the return map of `{0}` has no trajectories: it is not that of a compiled model")]
+    NoTrajectory(&'static str),
 }
 
 /// A model's return map with sizes erased.
@@ -305,6 +320,16 @@ pub trait ReturnMap: Send + Sync {
     ) -> Result<Option<SecondOrder>, RequestError> {
         let _ = (plan, point, chosen);
         Ok(None)
+    }
+
+    /// Follows the real machine from any start: memory kept, no symmetry, no projection; see [`crate::trajectory`].
+    ///
+    /// # Errors
+    /// When the request itself is wrong, or would hold more values than [`crate::trajectory::MOST_VALUES`]; a run that stops
+    /// on its way is a trajectory up to there.
+    fn follow(&self, request: &FollowRequest<'_>) -> Result<Trajectory, RequestError> {
+        let _ = request;
+        Err(RequestError::NoTrajectory(self.info().name))
     }
 
     /// Where the map leads, without derivatives, by a second route that shares nothing with [`Self::evaluate`]: Gauss

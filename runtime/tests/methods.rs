@@ -3,6 +3,9 @@
 #![allow(clippy::unwrap_used)] // a failed expectation is a failed test
 
 mod common;
+#[path = "trajectory/climbers.rs"]
+mod followed;
+mod trajectory;
 
 use approx::assert_abs_diff_eq;
 use common::auto::{Auto, Equations, c};

@@ -3,6 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed expectation is a failed test
 
 mod common;
+#[path = "trajectory/small.rs"]
+mod followed;
+mod trajectory;
 
 use approx::assert_abs_diff_eq;
 use common::toys::{BALL, CHATTER, DIP, DOMAIN, FALLING, FORCED, JUMP, PILING, PULSE, TWINS, WHEEL};

@@ -43,8 +43,14 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Find a periodic gait and its stability
     Gait(GaitArgs),
+    /// Follow the machine from any start, through steps, until it falls
+    Simulate(Box<super::simulate::SimulateArgs>),
+    /// Show what others have published beside what is computed
+    Compare(super::compare::CompareArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
+    /// Write a page with animation, equations, tables and pictures of a model
+    Report(super::report::ReportArgs),
     /// Measure every generated derivative against an independent route
     Verify(VerifyArgs),
     /// Make a cargo project with a model of your own
@@ -143,7 +149,7 @@ pub(crate) struct SearchArgs {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json\n  \
-                  gaitc gait prescribed_length --plot multipliers=multipliers.svg --plot map=map.png"
+                  gaitc gait prescribed_length --plot-multipliers multipliers.svg --plot-map map.png"
 )]
 pub(crate) struct GaitArgs {
     #[command(flatten)]
@@ -157,10 +163,12 @@ pub(crate) struct GaitArgs {
     /// away (models without a mass matrix)
     #[arg(long, default_value_t = 1, value_name = "N")]
     pub(crate) segments: usize,
-    /// Draw as SVG or PNG: `multipliers` in the unit circle, or the return `map` with the orbit of the first guess; e.g.
-    /// --plot map=map.svg (without a kind: multipliers)
-    #[arg(long, value_name = "[KIND=]FILE")]
-    pub(crate) plot: Vec<String>,
+    /// Draw the multipliers in the unit circle, as SVG or PNG
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot_multipliers: Option<PathBuf>,
+    /// Draw the return map with the orbit of the first guess, as SVG or PNG
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot_map: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -4,11 +4,11 @@ mod pictures;
 
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
-use super::{InputError, Outcome, inputs, output, plots, provenance};
+use super::{InputError, Outcome, inputs, output, provenance, stops};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{Method, StopReason, Warning};
+use gaitc_runtime::return_map::{Method, Warning};
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
@@ -34,7 +34,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     if args.segments == 0 || args.segments > MOST_SEGMENTS {
         return Err(InputError(format!("--segments {}: give a number from 1 to {MOST_SEGMENTS}", args.segments)));
     }
-    let plots = plots::wanted(&args.plot, &pictures::KINDS)?;
+    pictures::check(args)?;
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
     let guess = inputs::guess(&loaded, &args.search)?;
@@ -53,7 +53,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     } else {
         output::print(&report.text());
     }
-    pictures::draw(&report, (&request, &guess), &plots, &provenance)?;
+    pictures::draw(&report, (args, &request, &guess), &provenance)?;
     let answered = outcome.status == GaitStatus::Converged && !outcome.gait.as_ref().is_some_and(unmeasured);
     Ok(if answered { Outcome::Done } else { Outcome::Without })
 }
@@ -61,6 +61,16 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
 /// Whether no measure has a value: the run with measures came to no end. Warnings then say so.
 fn unmeasured(gait: &Gait) -> bool {
     !gait.map.measures.is_empty() && gait.map.measures.iter().all(|m| m.is_nan())
+}
+
+/// What a status is called in results.
+pub(super) fn status(status: &GaitStatus) -> &'static str {
+    match status {
+        GaitStatus::Converged => "converged",
+        GaitStatus::Open(_) => "not_closed",
+        GaitStatus::NotConverged => "not_converged",
+        GaitStatus::Stopped(stop) => stops::name(stop.reason),
+    }
 }
 
 struct Report<'a> {
@@ -72,22 +82,6 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    fn status(&self) -> &'static str {
-        match &self.outcome.status {
-            GaitStatus::Converged => "converged",
-            GaitStatus::Open(_) => "not_closed",
-            GaitStatus::NotConverged => "not_converged",
-            GaitStatus::Stopped(stop) => match stop.reason {
-                StopReason::NoEvent => "no_event",
-                StopReason::StepLimit => "step_limit",
-                StopReason::StepTooSmall => "step_too_small",
-                StopReason::NotFinite => "not_finite",
-                StopReason::Inconsistent => "inconsistent",
-                StopReason::Zeno => "zeno",
-            },
-        }
-    }
-
     /// The gait only where there is one: the last point of a failed search is no result.
     fn gait(&self) -> Option<&Gait> {
         self.outcome.gait.as_ref().filter(|_| self.outcome.status == GaitStatus::Converged)
@@ -103,7 +97,7 @@ impl Report<'_> {
         let names = spec.parameters.iter().map(|p| p.name.as_str());
         let mut all = json!({
             "model": spec.name,
-            "status": self.status(),
+            "status": status(&self.outcome.status),
             "message": self.outcome.message,
             "parameters": named(names, self.parameters),
             "residual": self.outcome.residual,
@@ -181,7 +175,7 @@ impl Report<'_> {
 
     fn text(&self) -> String {
         let spec = &self.loaded.spec;
-        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.status(), self.outcome.message);
+        let mut text = format!("{} · gait\n{}: {}\n", spec.name, status(&self.outcome.status), self.outcome.message);
         for warning in self.all_warnings() {
             text += &format!("warning: {warning}\n");
         }

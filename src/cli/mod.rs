@@ -4,6 +4,7 @@
 
 mod args;
 mod check;
+mod compare;
 mod completions;
 mod explain;
 mod gait;
@@ -16,9 +17,12 @@ mod optimize;
 mod output;
 mod plots;
 mod provenance;
+mod report;
 mod run;
 mod schema;
 mod show;
+mod simulate;
+mod stops;
 mod verify;
 
 use args::{Cli, Command};
@@ -115,7 +119,10 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Show(args) => show::run(cli, args),
         Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
+        Command::Simulate(args) => simulate::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
+        Command::Compare(args) => compare::run(cli, args),
+        Command::Report(args) => report::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
     }
 }

@@ -7,4 +7,4 @@ mod return_map;
 
 pub use motion::Run;
 pub use multipliers::multipliers;
-pub use return_map::{Orbit, return_map};
+pub use return_map::{Orbit, map_of, return_map};

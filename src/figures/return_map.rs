@@ -4,7 +4,8 @@ use crate::load::Loaded;
 use crate::picture::{Cobweb, Return, label};
 use gaitc_compiler::front::in_unit;
 use gaitc_compiler::ir::State;
-use gaitc_runtime::return_map::{MapOutcome, MapRequest, RequestError};
+use gaitc_runtime::orbit::GaitRequest;
+use gaitc_runtime::return_map::{MapOutcome, MapRequest, RequestError, Sensitivity};
 
 /// Steps of the orbit that is shown.
 const STEPS: usize = 40;
@@ -20,6 +21,20 @@ pub struct Orbit<'a> {
     pub start: &'a [f64],
     /// The gait's section coordinates, where there is one.
     pub gait: Option<&'a [f64]>,
+}
+
+/// The map whose fixed points a request looks for.
+#[must_use]
+pub fn map_of<'a>(request: &GaitRequest<'a>, coordinates: &'a [f64]) -> MapRequest<'a> {
+    MapRequest {
+        coordinates,
+        parameters: request.parameters,
+        memory: request.memory,
+        period: request.period,
+        sensitivity: Sensitivity::None,
+        measures: false,
+        accuracy: request.accuracy,
+    }
 }
 
 /// The orbit of a start as a cobweb for each section coordinate. With one coordinate the return map is a curve, and it is

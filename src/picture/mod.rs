@@ -30,8 +30,8 @@ pub use circle::{Circle, Multipliers};
 pub use cobweb::{Cobweb, Return};
 pub use line::Line;
 pub use path::{Path, Places, Stretches};
-pub(crate) use svg::escape;
 pub use series::{Curve, Event, Level, Panel, Series};
+pub(crate) use svg::escape;
 pub use write::{PictureError, check_name, write};
 
 use crate::provenance::Provenance;

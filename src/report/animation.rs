@@ -16,16 +16,17 @@ pub struct Animation {
 impl Animation {
     /// As JSON that may stand in a `script` element. Places in tenths of a millimetre or finer, `null` where a point is not there.
     pub(super) fn json(&self) -> String {
-        let coordinates = |places: &[(f64, f64)]| -> Value {
-            places.iter().flat_map(|p| [rounded(p.0), rounded(p.1)]).collect()
-        };
+        let coordinates =
+            |places: &[(f64, f64)]| -> Value { places.iter().flat_map(|p| [rounded(p.0), rounded(p.1)]).collect() };
         let joint = |joint: Joint| match joint {
             Joint::Body => -1,
             Joint::Point(point) => point as i64,
         };
-        let points = self.path.points.iter().map(|point| {
-            json!({ "name": point.name, "held": point.held, "at": coordinates(&point.at) })
-        });
+        let points = self
+            .path
+            .points
+            .iter()
+            .map(|point| json!({ "name": point.name, "held": point.held, "at": coordinates(&point.at) }));
         let all = json!({
             "t": self.t.iter().map(|&t| rounded(t)).collect::<Value>(),
             "body": coordinates(&self.path.body),

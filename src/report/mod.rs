@@ -4,11 +4,14 @@
 //! forbids. Without JavaScript everything but the animation is there. All text is escaped where it is put in (`html`).
 
 mod animation;
+mod collect;
+mod comparison;
 mod equations;
 mod html;
 mod page;
 
 pub use animation::Animation;
+pub use collect::{Study, contents};
 pub use equations::equations;
 pub use page::page;
 

@@ -33,13 +33,19 @@ pub fn page(contents: &Contents) -> String {
         + "<main>\n"
         + &motion(contents)
         + &section("gait", "Gait", &contents.gait.iter().map(table).collect::<String>())
-        + &section("published", "Published beside computed", &contents.published.iter().map(comparison).collect::<String>())
+        + &section(
+            "published",
+            "Published beside computed",
+            &contents.published.iter().map(comparison).collect::<String>(),
+        )
         + &section("pictures", "Pictures", &contents.figures.iter().map(figure).collect::<String>())
         + &section("parameters", "Parameters", &table(&contents.parameters))
         + &section("equations", "Equations", &equations(&contents.equations))
         + &section("origin", "How this page was made", &origin(contents))
         + "</main>\n";
-    format!("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{head}</head>\n<body>\n{body}<script>{PLAYER}</script>\n</body>\n</html>\n")
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{head}</head>\n<body>\n{body}<script>{PLAYER}</script>\n</body>\n</html>\n"
+    )
 }
 
 fn header(contents: &Contents) -> String {

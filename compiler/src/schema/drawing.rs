@@ -16,12 +16,16 @@ pub(super) fn drawing() -> Value {
             "Lines between points, as in `[[\"body\", \"foot\"]]`.",
         )),
         "panels" => {
-            let panel = strings(text("Expression of the motion."), "Curves of one dimension that share a panel.");
+            let mut panel = strings(text("Expression of the motion."), "Curves of one dimension that share a panel.");
+            panel["minItems"] = 1.into();
             Some(strings(panel, "What is worth plotting over time, as in `[[\"v_x\", \"v_y\"], [\"force\"]]`."))
         }
         _ => None,
     };
-    Keys::new(keys::DRAWING, key).table("How to draw the machine in the plane, and what of it is worth plotting.")
+    let description = "How to draw the machine in the plane, and what of it is worth plotting.";
+    let mut drawing = Keys::new(keys::DRAWING, key).table(description);
+    drawing["dependencies"] = json!({ "points": ["velocity"], "links": ["velocity"] });
+    drawing
 }
 
 fn point() -> Value {

@@ -2,7 +2,7 @@
 
 use super::forms::{Keys, any_name, expressions, named, text};
 use crate::front::keys;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 pub(super) fn published() -> Value {
     let key = |key: &str| match key {
@@ -26,8 +26,9 @@ pub(super) fn published() -> Value {
         )),
         _ => None,
     };
-    let item = Keys::new(keys::PUBLISHED, key)
+    let mut item = Keys::new(keys::PUBLISHED, key)
         .required(&["source"])
         .table("Numbers from one source, to be shown beside computed ones.");
+    item["anyOf"] = json!([{ "required": ["measures"] }, { "required": ["section"] }]);
     named(item, any_name(), "What others have published of the machine.")
 }

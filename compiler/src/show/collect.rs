@@ -1,6 +1,7 @@
 //! From a spec as it was written, joined with its parts, to the content of a page. Lets and functions stay what they
 //! are named; those that nothing in the model needs are left out.
 
+use super::drawn::{Drawing, DrawnPoint, Published};
 use super::latex::{Latex, rate};
 use super::level::Level;
 use super::plain::Plain;
@@ -74,6 +75,8 @@ impl Collector<'_> {
             section: spec.section.as_ref().map(|section| self.section(section)),
             measures: spec.measures.iter().map(measure).collect(),
             problems: spec.problems.iter().map(|item| self.problem(item)).collect(),
+            drawing: spec.drawing.as_ref().map(|drawing| self.drawing(drawing)),
+            published: spec.published.iter().map(|item| self.published(item)).collect(),
         }
     }
 
@@ -241,11 +244,6 @@ impl Collector<'_> {
     }
 
     fn section(&self, section: &spec::Section) -> Section {
-        let start = |item: &Named<Text>| {
-            let quantity = self.quantity(&item.value);
-            let shown = format_quantity(quantity.value, &quantity.unit);
-            Start { name: self.name(&item.name), value: quantity.value, shown }
-        };
         Section {
             side: match section.anchor {
                 Some(Anchor::Before(_)) => "before",
@@ -255,8 +253,48 @@ impl Collector<'_> {
             of: section.anchor.as_ref().map_or(String::new(), |anchor| anchor.name().value.clone()),
             coordinates: section.coordinates.iter().flatten().map(|name| self.name(&name.value)).collect(),
             embed: self.assignments(&section.embed),
-            start: section.start.iter().map(start).collect(),
+            start: self.quantities(&section.start),
             symmetry: section.symmetry.as_ref().map(|symmetry| self.assignments(symmetry)),
+        }
+    }
+
+    /// Quantities of something named.
+    fn quantities(&self, items: &[Named<Text>]) -> Vec<Start> {
+        let start = |item: &Named<Text>| {
+            let quantity = self.quantity(&item.value);
+            let shown = format_quantity(quantity.value, &quantity.unit);
+            Start { name: self.name(&item.name), value: quantity.value, shown }
+        };
+        items.iter().map(start).collect()
+    }
+
+    fn drawing(&self, drawing: &spec::Drawing) -> Drawing {
+        let pair = |pair: &[spec::Equation; 2]| pair.each_ref().map(|equation| self.formula(equation));
+        let names = |names: &[Text]| names.iter().map(|name| name.value.clone()).collect();
+        let point = |item: &Named<spec::DrawnPoint>| {
+            let at = item.value.at.as_ref().map(pair)?;
+            let modes = item.value.modes.as_deref().map(names);
+            Some(DrawnPoint { name: item.name.clone(), at, modes, held: item.value.held, doc: item.value.doc.clone() })
+        };
+        let panel = |curves: &Vec<spec::Equation>| curves.iter().map(|curve| self.formula(curve)).collect();
+        Drawing {
+            velocity: drawing.velocity.as_ref().map(pair),
+            points: drawing.points.iter().filter_map(point).collect(),
+            links: drawing.links.iter().map(|ends| ends.each_ref().map(|end| end.value.clone())).collect(),
+            panels: drawing.panels.iter().map(panel).collect(),
+        }
+    }
+
+    fn published(&self, item: &Named<spec::Published>) -> Published {
+        let spec::Published { doc, source, set, start, measures, section } = &item.value;
+        Published {
+            name: item.name.clone(),
+            doc: doc.clone(),
+            source: source.as_ref().map_or(String::new(), |source| source.value.clone()),
+            set: self.quantities(set),
+            start: self.quantities(start),
+            measures: self.quantities(measures),
+            section: self.quantities(section),
         }
     }
 

@@ -4,6 +4,7 @@
 //! content (`sheet`), formulas set by `plain` and `latex`; each page arranges it.
 
 mod collect;
+mod drawn;
 mod escape;
 #[cfg(test)]
 mod formula_tests;
@@ -37,6 +38,11 @@ impl Sheet {
     /// The page in Markdown, with formulas between `$` and `$$`.
     pub fn markdown(&self) -> String {
         page_markdown::page(self)
+    }
+
+    /// The measures: their names, and their expressions as the spec has them.
+    pub fn measures(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.measures.iter().map(|measure| (measure.name.name.as_str(), measure.formula.source.as_str()))
     }
 
     /// Modes and transitions, one arrow a line.

@@ -49,6 +49,11 @@ pub(super) fn page(sheet: &Sheet) -> String {
         let title = format!("Problem \\texttt{{{}}}{default}", latex(&problem.name));
         section(&mut page, &title, &self::problem(problem));
     }
+    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), |drawing| display(&drawing.latex())));
+    for published in &sheet.published {
+        let body = paragraph(&published.source()) + &display(&published.latex());
+        section(&mut page, &format!("Published: {}", latex(&published.name)), &body);
+    }
     page + "\\end{document}\n"
 }
 

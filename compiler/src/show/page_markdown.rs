@@ -34,6 +34,11 @@ pub(super) fn page(sheet: &Sheet) -> String {
         let default = if problem.default { " (default)" } else { "" };
         section(&mut page, &format!("Problem `{}`{default}", problem.name), &self::problem(problem));
     }
+    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), |drawing| display(&drawing.latex())));
+    for published in &sheet.published {
+        let body = paragraph(&published.source()) + &display(&published.latex());
+        section(&mut page, &format!("Published: {}", markdown(&published.name)), &body);
+    }
     page
 }
 

@@ -1,5 +1,6 @@
 //! A model for the terminal, 100 columns wide.
 
+use super::drawn::Drawing;
 use super::escape::plain;
 use super::graph;
 use super::sheet::{Assignment, Problem, Sheet, Transition};
@@ -38,6 +39,10 @@ pub(super) fn page(sheet: &Sheet) -> String {
     for problem in &sheet.problems {
         let default = if problem.default { " (default)" } else { "" };
         section(&mut page, &format!("problem {}{default}", problem.name), &self::problem(problem));
+    }
+    section(&mut page, "drawing", &sheet.drawing.as_ref().map_or(String::new(), Drawing::text));
+    for published in &sheet.published {
+        section(&mut page, &format!("published {}", plain(&published.name)), &published.text());
     }
     page
 }

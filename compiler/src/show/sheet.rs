@@ -3,6 +3,7 @@
 //! Every formula is there as it was written and typeset; every quantity in SI units and as it is printed. What is marked
 //! `skip` is for pages only.
 
+use super::drawn::{Drawing, Published};
 use serde::Serialize;
 
 /// A model on paper.
@@ -21,6 +22,8 @@ pub struct Sheet {
     pub(super) section: Option<Section>,
     pub(super) measures: Vec<Measure>,
     pub(super) problems: Vec<Problem>,
+    pub(super) drawing: Option<Drawing>,
+    pub(super) published: Vec<Published>,
 }
 
 /// A name and how it is set.

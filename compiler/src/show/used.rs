@@ -1,9 +1,9 @@
 //! Which lets and functions a model needs, directly or through others.
 
-use crate::front::spec::{Equation, MassRow, Spec};
+use crate::front::spec::{Drawing, Equation, MassRow, Spec};
 use std::collections::{HashMap, HashSet};
 
-/// The names of lets and functions that equations, sections, measures or problems need.
+/// The names of lets and functions that equations, sections, measures, problems or the drawing need.
 pub(super) fn used(spec: &Spec) -> HashSet<&str> {
     let lets = spec.lets.iter().map(|item| (item.name.as_str(), &item.value));
     let functions = spec.functions.iter().filter_map(|item| Some((item.name.as_str(), item.value.body.as_ref()?)));
@@ -48,5 +48,6 @@ fn roots(spec: &Spec) -> Vec<&Equation> {
     for problem in spec.problems.iter().map(|item| &item.value) {
         all.extend(problem.objective.iter().map(|(_, equation)| equation).chain(&problem.subject_to));
     }
+    all.extend(spec.drawing.iter().flat_map(Drawing::equations));
     all
 }

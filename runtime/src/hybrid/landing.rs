@@ -11,9 +11,9 @@ use crate::model::Model;
 use crate::return_map::StopReason;
 
 /// The second part of a split step, as a fraction of it.
-const LAST_PART: f64 = 0.01;
+pub(super) const LAST_PART: f64 = 0.01;
 /// An event before this fraction of a step takes its rates from the step that it lies in.
-const EARLY: f64 = 1e-3;
+pub(super) const EARLY: f64 = 1e-3;
 /// Corrections of the second part's size.
 const CORRECTIONS: usize = 4;
 
@@ -31,21 +31,18 @@ where
             let accepted = self.step.stages;
             self.shorten(found.h)?;
             X::take_rates(&mut self.step, &accepted, part);
-            self.examine_extrema();
-            return Ok(());
+            return self.complete_step();
         }
         if !(X::RATES_BY_POLYNOMIAL && R::MEASURED) {
             self.shorten(found.h)?;
-            self.examine_extrema();
-            return Ok(());
+            return self.complete_step();
         }
         self.shorten((1.0 - LAST_PART) * found.h)?;
-        self.examine_extrema();
+        self.complete_step()?;
         self.move_on();
         self.shorten(LAST_PART * found.h)?;
         self.correct(found)?;
-        self.examine_extrema();
-        Ok(())
+        self.complete_step()
     }
 
     /// One step of size `h` from where the run is. It is shorter than one that was accepted, so that this fails is all but

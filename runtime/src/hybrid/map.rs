@@ -70,7 +70,7 @@ where
     }
 
     /// Enters the mode in which the map begins; from a section before a transition by that transition's reset.
-    fn leave(&mut self, section: Section) {
+    pub(crate) fn leave(&mut self, section: Section) {
         let Some(transition) = M::INFO.transitions.get(section.transition()) else {
             self.segment.mode = usize::MAX;
             return;
@@ -103,8 +103,9 @@ where
     }
 
     /// Starts the segment that follows the start of a map or a transition.
-    fn begin(&mut self, record: bool) -> Result<(), StopReason> {
+    pub(crate) fn begin(&mut self, record: bool) -> Result<(), StopReason> {
         self.enter(None)?;
+        self.note_begin();
         let place =
             Place { dx: self.step.start.dx, dk: self.step.start_rates.dx, dtau: [0.0; C], dt: self.segment.dstart };
         self.observe_boundary(&place);
@@ -128,12 +129,12 @@ where
         Ok(())
     }
 
-    fn run_to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
+    pub(crate) fn run_to_section(&mut self, section: usize, record: bool) -> Result<(), StopReason> {
         loop {
             self.advance()?;
             let found = self.first_events();
             let Some(first) = found.first() else {
-                self.examine_extrema();
+                self.complete_step()?;
                 if let Some(record) = &mut self.record {
                     record.step(self.step.h, self.error, &self.watched);
                 }
@@ -142,8 +143,11 @@ where
             };
             self.land(first)?;
             self.note_end(first.h, &found);
+            self.note_arrival();
             let last = record && self.fires(first.watched, section);
-            match self.pass(&found, last)? {
+            let passed = self.pass(&found, last)?;
+            self.note_passed(passed.is_some());
+            match passed {
                 Some(transition) if transition == section => return Ok(()),
                 Some(_) => self.begin(false)?,
                 None => {}
@@ -176,7 +180,7 @@ where
         self.watched.get(watched).is_some_and(|w| w.surface == crate::event::Surface::Transition(section))
     }
 
-    fn embed(&mut self, at: &Coordinates<N, C>) {
+    pub(crate) fn embed(&mut self, at: &Coordinates<N, C>) {
         let z = at.z.get(..M::INFO.coordinates.len()).unwrap_or(&[]);
         let y = &mut self.step.start;
         y.x = M::embed(z, self.segment.p);

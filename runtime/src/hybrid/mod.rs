@@ -4,6 +4,7 @@
 //! and for the number of sensitivity columns (padded to the next width in store; more columns take several passes).
 
 mod extremum;
+mod follow;
 mod functionals;
 mod landing;
 mod map;
@@ -13,6 +14,7 @@ mod request;
 mod resolution;
 mod run;
 mod segment;
+mod tracing;
 
 use crate::collocation;
 use crate::integrate;
@@ -23,6 +25,7 @@ use crate::return_map::{
     AlsoZeroAt, Images, MapOutcome, MapRequest, MapResult, Method, Piece, PieceEnd, Plan, Points, RequestError,
     ReturnMap, SecondOrder, Sensitivity, Stop, StopReason,
 };
+use crate::trajectory::{FollowRequest, Trajectory};
 use core::marker::PhantomData;
 use functionals::{Functionals, Varied};
 use map::{Coordinates, Reached};
@@ -131,6 +134,10 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMa
         chosen: &[usize],
     ) -> Result<Option<SecondOrder>, RequestError> {
         replays::second_order::<M, N, P, Q>(plan, point, chosen)
+    }
+
+    fn follow(&self, request: &FollowRequest<'_>) -> Result<Trajectory, RequestError> {
+        follow::follow::<M, N, P, Q>(request)
     }
 
     fn collocate(

@@ -1,7 +1,7 @@
 //! Checks of a request before any work is done.
 
 use crate::model::{ModelInfo, Section};
-use crate::return_map::{MapRequest, Method, RequestError, Sensitivity};
+use crate::return_map::{Accuracy, MapRequest, Method, RequestError, Sensitivity};
 
 /// Whether the request fits the model; where the section stands.
 pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Result<Section, RequestError> {
@@ -15,7 +15,10 @@ pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Resul
         let what = "a parameter index of the sensitivity (counted from 0) is out of range: number of parameters";
         return Err(RequestError::Length { what, expected: info.parameters.len(), got: worst });
     }
-    accuracy(request)?;
+    accuracy(&request.accuracy)?;
+    if request.period == 0 {
+        return Err(RequestError::Accuracy("`period` must be at least 1"));
+    }
     if request.accuracy.method == Method::Explicit && !info.explicit {
         return Err(RequestError::NoExplicitFlow(info.name));
     }
@@ -25,7 +28,8 @@ pub(crate) fn check(info: &'static ModelInfo, request: &MapRequest<'_>) -> Resul
     Ok(section)
 }
 
-fn values(what: &'static str, given: &[f64], expected: usize) -> Result<(), RequestError> {
+/// Whether there are as many finite values as expected.
+pub(super) fn values(what: &'static str, given: &[f64], expected: usize) -> Result<(), RequestError> {
     if given.len() != expected {
         return Err(RequestError::Length { what, expected, got: given.len() });
     }
@@ -35,8 +39,8 @@ fn values(what: &'static str, given: &[f64], expected: usize) -> Result<(), Requ
     }
 }
 
-fn accuracy(request: &MapRequest<'_>) -> Result<(), RequestError> {
-    let a = &request.accuracy;
+/// Whether an accuracy makes sense.
+pub(super) fn accuracy(a: &Accuracy) -> Result<(), RequestError> {
     // Written so that NaN fails.
     if !(a.relative >= 0.0 && a.relative < 1.0) {
         return Err(RequestError::Accuracy("`relative` tolerance must be at least 0 and below 1, e.g. 1e-12"));
@@ -46,9 +50,6 @@ fn accuracy(request: &MapRequest<'_>) -> Result<(), RequestError> {
     }
     if !(a.time_limit > 0.0 && a.time_limit.is_finite()) {
         return Err(RequestError::Accuracy("the time limit must be positive and finite, e.g. 100 s"));
-    }
-    if request.period == 0 {
-        return Err(RequestError::Accuracy("`period` must be at least 1"));
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::ode::{Bundle, Controller, Step, Tolerance};
 use crate::replay::Record;
 use crate::return_map::{Accuracy, Event, Statistics, StopReason, Warning};
+use crate::trajectory::trace::Trace;
 use core::marker::PhantomData;
 
 /// Steps in a row that may fail before the run gives up.
@@ -72,6 +73,8 @@ pub(crate) struct Run<
     pub(crate) statistics: Statistics,
     /// What a plan is made of, where one is wanted.
     pub(crate) record: Option<Record>,
+    /// Where the run is noted as a trajectory, if that is wanted.
+    pub(crate) trace: Option<Box<Trace>>,
     /// Error of the last accepted step, relative to the tolerance.
     pub(crate) error: f64,
     /// Time since the start of the run after which no step is taken (s).
@@ -121,6 +124,7 @@ where
             warnings: Vec::new(),
             statistics: Statistics::default(),
             record: None,
+            trace: None,
             error: 0.0,
             deadline: accuracy.time_limit,
             hasty: 0,

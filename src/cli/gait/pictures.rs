@@ -1,50 +1,39 @@
-//! `gaitc gait --plot`: the multipliers, the return map.
+//! `gaitc gait --plot-multipliers`, `--plot-map`.
 
 use super::Report;
+use crate::cli::args::GaitArgs;
 use crate::cli::{InputError, plots};
 use crate::figures::{self, Orbit};
-use crate::picture::Picture;
 use crate::provenance::Provenance;
 use gaitc_runtime::orbit::GaitRequest;
-use gaitc_runtime::return_map::{MapRequest, Sensitivity};
-use std::path::PathBuf;
 
-/// What can be drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind {
-    Multipliers,
-    Map,
+/// Refuses files that cannot be written, or are no pictures by their names, before the work begins.
+pub(super) fn check(args: &GaitArgs) -> Result<(), InputError> {
+    if args.plot_map.is_some() && args.plot_map == args.plot_multipliers {
+        return Err(InputError("--plot-map and --plot-multipliers name the same file\n  help: name two".to_owned()));
+    }
+    for (flag, path) in [("--plot-multipliers", &args.plot_multipliers), ("--plot-map", &args.plot_map)] {
+        if let Some(path) = path {
+            plots::check(flag, path)?;
+        }
+    }
+    Ok(())
 }
 
-/// By their names; the first is the default.
-pub(super) const KINDS: [(&str, Kind); 2] = [("multipliers", Kind::Multipliers), ("map", Kind::Map)];
-
-/// Draws what was asked for. Where there is no gait, the return map shows where the first guess leads.
+/// Draws what was asked for. Where there is no gait there are no multipliers, but the return map shows where the first guess
+/// leads.
 pub(super) fn draw(
     report: &Report<'_>,
-    (request, guess): (&GaitRequest<'_>, &[f64]),
-    wanted: &[(Kind, PathBuf)],
+    (args, request, guess): (&GaitArgs, &GaitRequest<'_>, &[f64]),
     provenance: &Provenance,
 ) -> Result<(), InputError> {
-    for (kind, path) in wanted {
-        let picture: Box<dyn Picture> = match (kind, report.gait()) {
-            (Kind::Multipliers, Some(gait)) => Box::new(figures::multipliers(report.loaded, gait)),
-            (Kind::Multipliers, None) => continue,
-            (Kind::Map, gait) => {
-                let map = MapRequest {
-                    coordinates: guess,
-                    parameters: request.parameters,
-                    memory: request.memory,
-                    period: request.period,
-                    sensitivity: Sensitivity::None,
-                    measures: false,
-                    accuracy: request.accuracy,
-                };
-                let gait = gait.map(|gait| gait.coordinates.as_slice());
-                Box::new(figures::return_map(report.loaded, &Orbit { map, start: guess, gait })?)
-            }
-        };
-        plots::save("--plot", path, &*picture, provenance);
+    if let (Some(path), Some(gait)) = (&args.plot_multipliers, report.gait()) {
+        plots::save("--plot-multipliers", path, &figures::multipliers(report.loaded, gait), provenance);
+    }
+    if let Some(path) = &args.plot_map {
+        let gait = report.gait().map(|gait| gait.coordinates.as_slice());
+        let orbit = Orbit { map: figures::map_of(request, guess), start: guess, gait };
+        plots::save("--plot-map", path, &figures::return_map(report.loaded, &orbit)?, provenance);
     }
     Ok(())
 }

@@ -42,8 +42,10 @@ impl Lowering<'_> {
             for (equation, observation) in at.iter().zip(&observations) {
                 if *there && let Some(state) = self.used(observation.expr, &mode.has_state) {
                     let (mode, state) = (&mode.name, self.state_name(state));
-                    let message =
-                        format!("the point `{}` uses the state `{state}`, which mode `{mode}` does not have", item.name);
+                    let message = format!(
+                        "the point `{}` uses the state `{state}`, which mode `{mode}` does not have",
+                        item.name
+                    );
                     let error = Diagnostic::error(Code::NotAvailable, message).at(self.root_span(equation), "");
                     let help = "say in which modes the point is there, as in `modes = [\"stance\"]`";
                     self.diagnostics.push(error.help(help));
@@ -108,8 +110,7 @@ impl Lowering<'_> {
 
     /// The curves of a panel, which share an axis.
     fn panel(&mut self, curves: &[Equation]) -> Option<Vec<Observation>> {
-        let lowered: Vec<Option<Value>> =
-            curves.iter().map(|curve| self.equation(curve, Place::Observation)).collect();
+        let lowered: Vec<Option<Value>> = curves.iter().map(|curve| self.equation(curve, Place::Observation)).collect();
         let known = |(curve, value): (usize, &Option<Value>)| Some((curve, value.as_ref()?.dimension?));
         let mut known = lowered.iter().enumerate().filter_map(known);
         let first = known.next();
@@ -119,9 +120,11 @@ impl Lowering<'_> {
             let message = "the curves of a panel share an axis, and these have different dimensions";
             let spans = [other, first].map(|curve| curves.get(curve).map(|curve| self.root_span(curve)));
             let [Some(span), Some(see)] = spans else { return None };
-            let error = Diagnostic::error(Code::Clash, message).at(span, format!("this is {}", dimension_text(dimension)));
+            let error =
+                Diagnostic::error(Code::Clash, message).at(span, format!("this is {}", dimension_text(dimension)));
             let error = error.see(see, format!("this is {}", dimension_text(common)));
-            self.diagnostics.push(error.help("give each dimension a panel: `panels = [[\"v_x\", \"v_y\"], [\"force\"]]`"));
+            self.diagnostics
+                .push(error.help("give each dimension a panel: `panels = [[\"v_x\", \"v_y\"], [\"force\"]]`"));
             return None;
         }
         let lowered = curves.iter().zip(lowered).map(|(curve, value)| Some(observation(curve, value?, common)));

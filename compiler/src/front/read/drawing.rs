@@ -27,7 +27,8 @@ pub(super) fn drawing(entry: &Entry, sink: &mut Sink<'_>) -> Option<Drawing> {
         && let Some(entry) = fields.get("points").or_else(|| fields.get("links"))
     {
         let message = "the drawing does not say how the body moves";
-        let help = "add `velocity = [\"v_x\", \"v_y\"]`, its speeds to the right and up: all points are seen from the body";
+        let help =
+            "add `velocity = [\"v_x\", \"v_y\"]`, its speeds to the right and up: all points are seen from the body";
         sink.missing(entry.key_span, message.to_owned(), help);
     }
     Some(Drawing { span: entry.key_span, velocity, points, links, panels })
@@ -108,7 +109,7 @@ fn panel(value: &Value, sink: &mut Sink<'_>) -> Option<Vec<Equation>> {
 /// The strings of an inner array.
 fn texts(value: &Value, key: &str, expected: &str, example: &str, sink: &mut Sink<'_>) -> Option<Vec<Text>> {
     let ValueKind::Array(values) = &value.kind else {
-        sink.wrong_type(value, &format!("an entry of {key}"), expected, example);
+        sink.wrong_type(value, key, expected, example);
         return None;
     };
     values

@@ -1,0 +1,164 @@
+//! `gaitc run`: run files, and results that are made again from what they carry. Completions and manual pages.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
+
+mod common;
+
+use common::{json, text};
+use gaitc::provenance::{KEY, Provenance, find};
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+
+/// Exit code and what is printed.
+fn stdout(arguments: &[&str]) -> (i32, String) {
+    let (code, out, _) = text(arguments);
+    (code, out)
+}
+
+/// What is said on stderr.
+fn stderr(arguments: &[&str]) -> String {
+    text(arguments).2
+}
+
+#[test]
+fn a_result_is_made_again_from_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("result.json");
+    let file = file.to_str().unwrap();
+    // A value in degrees whose radians have no short decimal, one in SI units, a guess.
+    let flags =
+        ["--set", "psi=25.3 deg", "--set", "omega=19 rad/s", "--guess", "q_theta=-21 deg", "--tol", "1e-11", "--json"];
+    let (code, first) = stdout(&[&["gait", "prescribed_length"][..], &flags].concat());
+    assert_eq!(code, 0);
+    fs::write(file, &first).unwrap();
+    let (code, again) = stdout(&["run", file, "--json"]);
+    assert_eq!((code, again), (0, first.clone()));
+    // Further arguments add to the run; `--json` may stand before the file, too.
+    let (_, other) = json(&["run", file, "--period", "2"]);
+    assert_eq!(other[KEY]["run"]["period"], "2");
+    assert_eq!(stdout(&["--json", "run", file]).1, first);
+}
+
+#[test]
+fn every_parameter_is_in_the_run_to_the_last_bit() {
+    let (_, result) = json(&["gait", "self_exciting", "--set", "psi=0.35"]);
+    let (set, values) = (result[KEY]["run"]["set"].as_object().unwrap(), result["parameters"].as_object().unwrap());
+    assert_eq!(set.keys().collect::<Vec<_>>(), values.keys().collect::<Vec<_>>());
+    let flags: Vec<String> = set.iter().map(|(name, value)| format!("{name}={}", value.as_str().unwrap())).collect();
+    let mut arguments = vec!["gait", "self_exciting"];
+    for flag in &flags {
+        arguments.extend(["--set", flag]);
+    }
+    assert_eq!(json(&arguments).1["parameters"], result["parameters"]);
+    assert_eq!(result[KEY]["version"], env!("CARGO_PKG_VERSION"));
+}
+
+#[test]
+fn a_run_file_is_the_command_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("study.toml");
+    fs::write(&file, "command = \"gait\"\nmodel = \"prescribed_length\"\ntol = 1e-10\n[set]\npsi = \"25 deg\"\n")
+        .unwrap();
+    let (code, ran) = json(&["run", file.to_str().unwrap()]);
+    let (_, typed) = json(&["gait", "prescribed_length", "--tol", "0.0000000001", "--set", "psi=25 deg"]);
+    assert_eq!(code, 0);
+    assert_eq!(ran["section"], typed["section"]);
+}
+
+/// What the program says of a run file, without the file's own name.
+fn complaint(contents: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run.toml");
+    fs::write(&file, contents).unwrap();
+    let (code, _, said) = text(&["run", file.to_str().unwrap()]);
+    assert_eq!(code, 1, "{contents}");
+    said.replace(&format!("{}", file.display()), "run.toml")
+}
+
+#[test]
+fn wrong_run_files_are_refused_with_what_to_write() {
+    for (contents, expected) in [
+        ("model = \"x\"", "`command` is missing"),
+        ("command = \"giat\"", "did you mean `gait`?"),
+        ("command = \"run\"", "no command is named `run`"),
+        ("command = \"gait\"\nmodel = \"x\"\nperiode = 2", "did you mean `period`?"),
+        ("command = \"gait\"\nmodel = \"x\"\njson = 3", "write `true` or `false`"),
+        ("command = \"gait\"\nmodel = \"x\"\n[set]\npsi = [1, 2]", "write one value for `psi`"),
+        ("command = ", "TOML parse error"),
+        ("command = \"gait\"", "<MODEL>"),
+        ("command = \"gait\"\nmodel = \"--help\"", "no compiled model is named `--help`"),
+    ] {
+        let said = complaint(contents);
+        assert!(said.contains(expected), "{contents}\n{said}");
+        assert!(said.starts_with("error: run.toml") || said.contains("no compiled model"), "{said}");
+    }
+    let (code, _, said) = text(&["run", "no such file.toml"]);
+    assert!(code == 1 && said.contains("no such file.toml"), "{said}");
+    // Not a run file, not a result.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("picture.png");
+    fs::write(&file, [0_u8, 159, 146, 150]).unwrap();
+    assert!(stderr(&["run", file.to_str().unwrap()]).contains("there is no run in this file"));
+}
+
+#[test]
+fn a_result_of_other_equations_or_versions_is_pointed_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("result.json");
+    let (_, mut result) = json(&["gait", "bouncing_ball"]);
+    for (key, expected) in
+        [("fingerprint", "other equations"), ("spec", "the spec was changed"), ("version", "made by gaitc 9")]
+    {
+        let kept = result[KEY][key].take();
+        result[KEY][key] = json!("9");
+        fs::write(&file, result.to_string()).unwrap();
+        assert!(stderr(&["run", file.to_str().unwrap()]).contains(expected));
+        assert_eq!(stderr(&["run", "--quiet", file.to_str().unwrap()]), "");
+        result[KEY][key] = kept;
+    }
+}
+
+#[test]
+fn a_provenance_is_found_in_any_file() {
+    let mut made = Provenance { model: "a<b>&".to_owned(), ..Provenance::default() };
+    made.run.insert("subject-to".to_owned(), "x <= 1".into());
+    let line = made.line();
+    assert!(!line.contains(['<', '>', '&']));
+    assert_eq!(find(format!("<svg><metadata>{line}</metadata></svg>").as_bytes()), Some(made.json()));
+    assert_eq!(find(&[&[0, 255, 7][..], line.as_bytes(), &[0, 1]].concat()), Some(made.json()));
+    let result = json!({ "status": "converged", KEY: made.json() });
+    assert_eq!(find(result.to_string().as_bytes()), Some(made.json()));
+    assert_eq!(find(b"{\"fingerprint\":}"), None);
+}
+
+#[test]
+fn shells_and_manuals_know_every_command() {
+    let (_, commands) = stdout(&["--help"]);
+    let commands: Vec<&str> =
+        commands.lines().skip_while(|l| *l != "Commands:").skip(1).map_while(|l| l.split_whitespace().next()).collect();
+    assert!(commands.contains(&"optimize"), "{commands:?}");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let (code, script) = stdout(&["completions", shell]);
+        assert_eq!(code, 0);
+        assert!(commands.iter().all(|command| script.contains(command)), "{shell}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let pages = folder.path().join("man/man1");
+    assert_eq!(stdout(&["man", pages.to_str().unwrap()]).0, 0);
+    for command in commands.iter().filter(|command| **command != "help") {
+        let page = fs::read_to_string(pages.join(format!("gaitc-{command}.1"))).unwrap();
+        assert!(page.contains(".TH") && page.contains("OPTIONS"), "{command}");
+    }
+    assert!(pages.join("gaitc.1").exists());
+    let blocked = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml").join("man");
+    let (code, _, said) = text(&["man", blocked.to_str().unwrap()]);
+    assert!(code == 1 && said.contains("help: name a folder"), "{said}");
+}
+
+#[test]
+fn verbose_says_how_long_it_took_and_quiet_nothing() {
+    let outside = ["gait", "prescribed_length", "--set", "psi=46 deg"];
+    assert!(stderr(&[&outside[..], &["--verbose"]].concat()).ends_with(" s\n"));
+    assert_eq!(stderr(&[&outside[..], &["-q"]].concat()), "");
+}
