@@ -5,8 +5,8 @@ use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use pulldown_latex::config::DisplayMode;
 use pulldown_latex::{RenderConfig, Storage, push_mathml};
 
-/// Parts of the Markdown page that a report has in another place.
-const ELSEWHERE: [&str; 1] = ["Parameters"];
+/// Beginnings of headings of parts of the Markdown page that a report shows in another place and way.
+const ELSEWHERE: [&str; 3] = ["Parameters", "Drawing", "Published"];
 
 /// The page without its title; headings are one level lower. Raw HTML in it is shown as text.
 #[must_use]
@@ -19,7 +19,7 @@ pub fn equations(markdown: &str) -> String {
         if let Event::Start(Tag::Heading { level, .. }) = event {
             // What stands before the first part is the title, which the report has itself.
             kept = level != HeadingLevel::H1
-                && !matches!(all.peek(), Some(Event::Text(name)) if ELSEWHERE.contains(&name.as_ref()));
+                && !matches!(all.peek(), Some(Event::Text(name)) if ELSEWHERE.iter().any(|part| name.starts_with(part)));
         }
         if kept {
             events.push(lower(event));
@@ -50,6 +50,7 @@ fn lower(event: Event<'_>) -> Event<'_> {
 
 /// A formula; one that cannot be set is shown as it was written.
 fn mathml(latex: &str, display_mode: DisplayMode) -> String {
+    let latex = &grouped(latex);
     let storage = Storage::new();
     let mut math = String::new();
     let config = RenderConfig { display_mode, ..RenderConfig::default() };
@@ -57,4 +58,14 @@ fn mathml(latex: &str, display_mode: DisplayMode) -> String {
         Ok(()) if !math.contains("<merror") => math.replace("<mo><</mo>", "<mo>&lt;</mo>"),
         _ => format!("<code>{}</code>", html::text(latex)),
     }
+}
+
+/// Functions with an exponent or an index in groups: else the space before a function would become its base.
+fn grouped(latex: &str) -> String {
+    const FUNCTIONS: [&str; 10] = ["sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "ln", "min", "max"];
+    FUNCTIONS.iter().fold(latex.to_owned(), |latex, name| {
+        ["^", "_"]
+            .iter()
+            .fold(latex, |latex, script| latex.replace(&format!("\\{name}{script}"), &format!("{{\\{name}}}{script}")))
+    })
 }

@@ -82,6 +82,8 @@
     }
     for (let n = Math.ceil(bottom / step); n * step <= bottom + height; n++) {
       svg("line", { x1: left, x2: left + width, y1: n * step, y2: n * step }, grid);
+      // Not where the edge would cut it off.
+      if ((n * step) + 4 * unit > bottom + height) continue;
       svg("text", { x: left + unit, y: -(n * step) - 0.6 * unit }, labels).textContent = (n * step).toFixed(decimals) + " m";
     }
   };
@@ -101,7 +103,7 @@
   let now = 0, playing = false, before = null, frame = null, drawn = null;
   const draw = () => {
     const shape = stage.getBoundingClientRect();
-    const ratio = shape.height > 0 ? shape.width / shape.height : 1;
+    const ratio = shape.width > 0 && shape.height > 0 ? shape.width / shape.height : 1;
     const width = view * Math.max(1, ratio), height = view * Math.max(1, 1 / ratio);
     const middle = whole ? [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2] : at(-1, now) || [0, 0];
     const left = middle[0] - width / 2, bottom = middle[1] - height / 2;
@@ -168,7 +170,7 @@
   scrub.addEventListener("input", () => { run(false); go(Number(scrub.value)); });
   stage.addEventListener("click", () => run(!playing));
   addEventListener("hashchange", fromAddress);
-  addEventListener("resize", () => draw());
+  new ResizeObserver(() => draw()).observe(stage);
   draw();
   if (!fromAddress()) run(!matchMedia("(prefers-reduced-motion: reduce)").matches);
 })();
