@@ -68,7 +68,9 @@ pub(super) fn run(cli: &Cli, args: &ReportArgs) -> Result<Outcome, InputError> {
         let report = json!({ "model": loaded.spec.name, "file": out.display().to_string(), "gait": converged });
         output::result(&made, report);
     } else {
-        output::print(&format!("{}: written\n", out.display()));
+        let without = outcome.as_ref().filter(|outcome| outcome.status != GaitStatus::Converged);
+        let without = without.map_or_else(String::new, |outcome| format!("no gait: {}\n", outcome.message));
+        output::print(&format!("{}: written\n{without}", out.display()));
     }
     // A page without a gait is what was asked for where the model can have none.
     Ok(if converged == Some(false) { Outcome::Without } else { Outcome::Done })
