@@ -135,8 +135,14 @@ fn a_provenance_is_found_in_any_file() {
 #[test]
 fn shells_and_manuals_know_every_command() {
     let (_, commands) = stdout(&["--help"]);
-    let commands: Vec<&str> =
-        commands.lines().skip_while(|l| *l != "Commands:").skip(1).map_while(|l| l.split_whitespace().next()).collect();
+    let commands: Vec<&str> = commands
+        .lines()
+        .skip_while(|l| *l != "Commands:")
+        .skip(1)
+        .take_while(|l| !l.is_empty())
+        .filter(|l| !l.starts_with("    "))
+        .filter_map(|l| l.split_whitespace().next())
+        .collect();
     assert!(commands.contains(&"optimize"), "{commands:?}");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let (code, script) = stdout(&["completions", shell]);

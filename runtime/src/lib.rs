@@ -17,4 +17,5 @@ pub mod replay;
 pub mod return_map;
 pub mod scalar;
 pub mod sensitivity;
+pub mod study;
 pub mod trajectory;

@@ -1,5 +1,6 @@
 //! The command line as clap reads it.
 
+use super::continuation::ContinueArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -47,6 +48,8 @@ pub(crate) enum Command {
     Simulate(Box<super::simulate::SimulateArgs>),
     /// Show what others have published beside what is computed
     Compare(super::compare::CompareArgs),
+    /// Follow a gait over a parameter: where it is stable, where it changes in kind, where it ends
+    Continue(ContinueArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
     /// Write a page with animation, equations, tables and pictures of a model
@@ -57,7 +60,7 @@ pub(crate) enum Command {
     New(NewArgs),
     /// Print the JSON Schema of specs, for editors
     Schema(SchemaArgs),
-    /// Do again what a run file says, or what made a result: JSON, CSV, Parquet, SVG, PNG or HTML
+    /// Do again what a run file says, or what made a result
     Run(super::run::RunArgs),
     /// Print a script that completes commands and flags in a shell
     Completions(super::completions::CompletionsArgs),

@@ -219,6 +219,6 @@ fn integration(method: Method) -> String {
     format!("integrated with {} (implicit, Radau IIA with {stages} stages)\n", inputs::method_name(method))
 }
 
-fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
+pub(super) fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
     Value::Object(names.zip(values).map(|(name, v)| (name.to_owned(), json!(v))).collect())
 }

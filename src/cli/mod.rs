@@ -6,6 +6,7 @@ mod args;
 mod check;
 mod compare;
 mod completions;
+mod continuation;
 mod explain;
 mod gait;
 mod guards;
@@ -120,6 +121,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Explain(args) => explain::run(cli, args),
         Command::Gait(args) => gait::run(cli, args),
         Command::Simulate(args) => simulate::run(cli, args),
+        Command::Continue(args) => continuation::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Compare(args) => compare::run(cli, args),
         Command::Report(args) => report::run(cli, args),

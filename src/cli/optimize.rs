@@ -76,7 +76,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
 }
 
 /// What the first Ctrl-C requests; the second ends the program at once.
-fn on_interrupt() -> Interrupt {
+pub(super) fn on_interrupt() -> Interrupt {
     let interrupt = Interrupt::new();
     let requested = interrupt.clone();
     let set = ctrlc::set_handler(move || {

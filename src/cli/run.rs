@@ -39,8 +39,7 @@ struct Read {
 
 pub(super) fn run(cli: &Cli, args: &RunArgs) -> Result<Outcome, InputError> {
     let read = read(&args.file)?;
-    let mut arguments = arguments(&read.run, &args.file)?;
-    arguments.extend(args.arguments.iter().cloned());
+    let arguments = arguments(&read.run, &args.arguments, &args.file)?;
     let mut again = super::parse(arguments)
         .map_err(|error| InputError(format!("{}: {}", args.file.display(), super::args::message(&error))))?;
     again.json |= cli.json;
@@ -78,8 +77,8 @@ fn read(path: &Path) -> Result<Read, InputError> {
 const NOTHING: &str = "there is no run in this file\n  help: give a run file (`command = \"gait\"`, ...) whose name ends in \
                        `.toml`, or a result that gaitc wrote";
 
-/// The command line that a run stands for.
-fn arguments(run: &Map<String, Value>, path: &Path) -> Result<Vec<OsString>, InputError> {
+/// The command line that a run stands for, with further arguments.
+fn arguments(run: &Map<String, Value>, further: &[OsString], path: &Path) -> Result<Vec<OsString>, InputError> {
     let fail = |message: String| InputError(format!("{}: {message}", path.display()));
     let program = Cli::command();
     let names: Vec<&str> = program.get_subcommands().map(Command::get_name).filter(|name| *name != "run").collect();
@@ -112,7 +111,10 @@ fn arguments(run: &Map<String, Value>, path: &Path) -> Result<Vec<OsString>, Inp
             all.extend(texts.into_iter().map(|text| OsString::from(format!("--{key}={text}"))));
         }
     }
-    all.splice(2..2, positional);
+    all.extend(further.iter().cloned());
+    // Behind this nothing is a flag, whatever it begins with.
+    all.push("--".into());
+    all.extend(positional);
     Ok(all)
 }
 

@@ -9,4 +9,4 @@ mod newton;
 mod shooting;
 
 pub use multipliers::{multipliers, spectral_radius};
-pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
+pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait, why};

@@ -366,7 +366,8 @@ fn message(info: &ModelInfo, status: &GaitStatus, residual: f64, tolerance: f64)
     }
 }
 
-fn why(reason: StopReason) -> &'static str {
+/// Why a run has no next step, in words.
+pub fn why(reason: StopReason) -> &'static str {
     match reason {
         StopReason::NoEvent => "no transition fired within the time limit",
         StopReason::StepLimit => "the limit on steps was reached",

@@ -9,6 +9,7 @@
 pub mod auto;
 pub mod climbers;
 pub mod crank;
+pub mod formula;
 pub mod toys;
 
 use gaitc_runtime::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, ReturnMap, Sensitivity, Stop};
