@@ -3,8 +3,10 @@
 
 mod motion;
 mod multipliers;
+mod published;
 mod return_map;
 
 pub use motion::Run;
 pub use multipliers::multipliers;
+pub use published::{mean, published};
 pub use return_map::{Orbit, map_of, return_map};

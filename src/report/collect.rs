@@ -174,7 +174,9 @@ fn pictures(study: &Study<'_>, trajectory: Option<&Trajectory>) -> Result<Vec<Fi
     // Two steps, a left and a right one, show how each curve repeats.
     if let Some(trajectory) = study.follow(2)? {
         let run = Run { loaded: study.loaded, parameters: study.parameters, trajectory: &trajectory };
-        let levels = |observation: &Observation| comparison::mean(study, observation);
+        let levels = |observation: &Observation| {
+            study.gait().and_then(|gait| figures::mean(study.sheet, gait, observation)).into_iter().collect()
+        };
         let series = run.over_time("Two steps", &levels);
         if !series.panels.is_empty() {
             add(
