@@ -64,7 +64,7 @@ fn motion(contents: &Contents) -> String {
         Ok(animation) => format!(
             "<noscript><p>The animation needs JavaScript; the path of the body is among the pictures below.</p></noscript>\n\
              <div id=\"player\" hidden>\n<svg id=\"stage\" role=\"img\" aria-label=\"The machine in motion\"></svg>\n\
-             <div class=\"controls\">\n<button id=\"play\" type=\"button\" aria-pressed=\"false\">Play</button>\n\
+             <div class=\"controls\">\n<button id=\"play\" type=\"button\">Play</button>\n\
              <label class=\"scrub\"><span class=\"unseen\">Time</span><input id=\"scrub\" type=\"range\" min=\"0\" value=\"0\" step=\"any\"></label>\n\
              <output id=\"time\" for=\"scrub\">0.000 s</output>\n\
              <label>Speed <select id=\"speed\"><option value=\"0.05\">1/20</option><option value=\"0.1\">1/10</option>\

@@ -152,7 +152,6 @@
     playing = wanted;
     before = null;
     play.textContent = playing ? "Pause" : "Play";
-    play.setAttribute("aria-pressed", String(playing));
     if (frame !== null) cancelAnimationFrame(frame);
     if (playing) frame = requestAnimationFrame(tick);
   };
