@@ -2,6 +2,7 @@
 //! with them periodic gaits, their stability, and the fastest stable climber.
 
 pub mod cli;
+pub mod figures;
 pub mod files;
 pub mod load;
 pub mod models;
@@ -11,6 +12,7 @@ pub mod problem;
 pub mod progress;
 pub mod provenance;
 pub mod published;
+pub mod report;
 pub mod study;
 pub mod table;
 pub mod verify;

@@ -1,8 +1,8 @@
 //! The command line as clap reads it.
 
 use super::continuation::ContinueArgs;
-use super::whole::whole;
 use super::study::{BasinArgs, MergeArgs, SweepArgs};
+use super::whole::whole;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -60,6 +60,8 @@ pub(crate) enum Command {
     Basin(Box<BasinArgs>),
     /// Join the shards of a sweep or basin
     Merge(MergeArgs),
+    /// Write a page with animation, equations, tables and pictures of a model
+    Report(super::report::ReportArgs),
     /// Measure every generated derivative against an independent route
     Verify(VerifyArgs),
     /// Make a cargo project with a model of your own
@@ -157,7 +159,8 @@ pub(crate) struct SearchArgs {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json"
+    after_help = "Examples:\n  gaitc gait prescribed_length --set 'psi=25 deg'\n  gaitc gait prescribed_length --period 2 --json\n  \
+                  gaitc gait prescribed_length --plot-multipliers multipliers.svg --plot-map map.png"
 )]
 pub(crate) struct GaitArgs {
     #[command(flatten)]
@@ -171,6 +174,12 @@ pub(crate) struct GaitArgs {
     /// away (models without a mass matrix)
     #[arg(long, default_value_t = 1, value_name = "N")]
     pub(crate) segments: usize,
+    /// Draw the multipliers in the unit circle, as SVG or PNG
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot_multipliers: Option<PathBuf>,
+    /// Draw the return map with the orbit of the first guess, as SVG or PNG
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot_map: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -226,7 +235,7 @@ pub(crate) struct OptimizeArgs {
     /// Write the trade-off curve as CSV
     #[arg(long, value_name = "FILE", requires = "trade")]
     pub(crate) csv: Option<PathBuf>,
-    /// Draw the trade-off curve as SVG
+    /// Draw the trade-off curve as SVG or PNG
     #[arg(long, value_name = "FILE", requires = "trade")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -1,25 +1,37 @@
 //! `gaitc compare [MODEL]`: what others have published, beside what is computed.
 
 use super::args::Cli;
-use super::{InputError, Outcome, gait, inputs, output};
+use super::{InputError, Outcome, gait, inputs, output, plots, provenance, show};
+use crate::figures;
 use crate::load::{Loaded, load};
 use crate::models::MODELS;
+use crate::picture::{Series, label};
 use crate::published::{Comparison, compare, name};
 use clap::Args;
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::PublishedNumber;
+use gaitc_compiler::show::Sheet;
 use serde_json::{Map, Value, json};
+use std::path::PathBuf;
 
 /// Which model.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  gaitc compare\n  gaitc compare self_exciting --json")]
+#[command(
+    after_help = "Examples:\n  gaitc compare\n  gaitc compare self_exciting --json\n  gaitc compare self_exciting --plot speeds.svg"
+)]
 pub(crate) struct CompareArgs {
     /// Name of a compiled model; all that have published numbers without it
     #[arg(value_name = "MODEL")]
     pub(crate) model: Option<String>,
+    /// Draw the computed curves with published and computed means as horizontal lines, as SVG or PNG
+    #[arg(long, value_name = "FILE", requires = "model")]
+    plot: Option<PathBuf>,
 }
 
 pub(super) fn run(cli: &Cli, args: &CompareArgs) -> Result<Outcome, InputError> {
+    if let Some(path) = &args.plot {
+        plots::check("--plot", path)?;
+    }
     let loaded = models(cli, args)?;
     let (mut texts, mut all, mut outcome) = (Vec::new(), Vec::new(), Outcome::Done);
     for model in &loaded {
@@ -39,7 +51,28 @@ pub(super) fn run(cli: &Cli, args: &CompareArgs) -> Result<Outcome, InputError> 
     } else {
         output::print(&texts.join("\n"));
     }
+    if let (Some(path), [model]) = (&args.plot, &loaded[..]) {
+        let provenance = provenance::of(&cli.run, model, &model.parameters());
+        plots::save("--plot", path, &picture(cli, model)?, &provenance);
+    }
     Ok(outcome)
+}
+
+/// The panels of all publications of a model, each with the name of its publication.
+fn picture(cli: &Cli, model: &Loaded) -> Result<Series, InputError> {
+    let parsed = show::find(&model.spec.name, cli.specs.as_deref())?;
+    let title = format!("{}: computed motion, published means", model.spec.name);
+    let mut all = Series { title, x: label("time", "s"), ..Series::default() };
+    let Some(sheet) = Sheet::new(&parsed) else { return Ok(all) };
+    for published in &model.spec.published {
+        let mut series = figures::published(model, &sheet, &compare(model, published)?)?;
+        for panel in &mut series.panels {
+            let mine = panel.levels.iter_mut();
+            mine.for_each(|level| level.name = format!("{}, {}", published.name, level.name));
+        }
+        all.panels.append(&mut series.panels);
+    }
+    Ok(all)
 }
 
 /// The models to compare: each has published numbers.

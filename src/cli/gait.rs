@@ -1,5 +1,7 @@
 //! `gaitc gait MODEL`: a periodic gait, its stability and its measures.
 
+mod pictures;
+
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
 use super::{InputError, Outcome, inputs, output, provenance};
@@ -32,6 +34,7 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     if args.segments == 0 || args.segments > MOST_SEGMENTS {
         return Err(InputError(format!("--segments {}: give a number from 1 to {MOST_SEGMENTS}", args.segments)));
     }
+    pictures::check(args)?;
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
     let guess = inputs::guess(&loaded, &args.search)?;
@@ -44,11 +47,13 @@ pub(super) fn run(cli: &Cli, args: &GaitArgs) -> Result<Outcome, InputError> {
     let outcome = find_gait(loaded.compiled, &request, &guess)?;
     let warnings = inputs::outside_range(&loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, outcome: &outcome, warnings };
+    let provenance = provenance::of(&cli.run, &loaded, &parameters);
     if cli.json {
-        output::result(&provenance::of(&cli.run, &loaded, &parameters), report.json());
+        output::result(&provenance, report.json());
     } else {
         output::print(&report.text());
     }
+    pictures::draw(&report, (args, &request, &guess), &provenance)?;
     let answered = outcome.status == GaitStatus::Converged && !outcome.gait.as_ref().is_some_and(unmeasured);
     Ok(if answered { Outcome::Done } else { Outcome::Without })
 }

@@ -18,6 +18,7 @@ mod optimize;
 mod output;
 mod plots;
 mod provenance;
+mod report;
 mod run;
 mod schema;
 mod show;
@@ -125,6 +126,7 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Continue(args) => continuation::run(cli, args),
         Command::Optimize(args) => optimize::run(cli, args),
         Command::Compare(args) => compare::run(cli, args),
+        Command::Report(args) => report::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
         Command::Sweep(args) => study::sweep(cli, args),
         Command::Basin(args) => study::basin(cli, args),

@@ -1,4 +1,5 @@
-//! `--plot FILE`: pictures of a command's result as files, with what made them.
+//! `--plot FILE`: pictures of a command's result as files, with what made them. A command that knows several has a flag for each,
+//! `--plot-KIND FILE`.
 
 use super::{InputError, output};
 use crate::picture::{self, Picture};

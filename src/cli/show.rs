@@ -29,7 +29,7 @@ pub(super) fn run(cli: &Cli, args: &ShowArgs) -> Result<Outcome, InputError> {
 }
 
 /// A spec by its path, or by its name: in `specs` (else in `./specs`), else the text embedded at build time.
-fn find(model: &str, specs: Option<&Path>) -> Result<Parsed, InputError> {
+pub(super) fn find(model: &str, specs: Option<&Path>) -> Result<Parsed, InputError> {
     if model.ends_with(".toml") {
         return read(Path::new(model));
     }

@@ -1,6 +1,6 @@
 //! Return maps with the steps of an orbit: one coordinate against its next value.
 
-use super::axis::{aired, drawable, extent};
+use super::axis::{Axis, aired, drawable, extent};
 use super::canvas::{Canvas, Ink, Stroke};
 use super::frame::{self, Frame, LABEL_BELOW, MARGIN, NUMBERS_BELOW, Sample, Sides};
 use super::{Picture, palette};
@@ -74,25 +74,23 @@ impl Picture for Cobweb {
     fn draw(&self) -> Canvas {
         let nothing = [Return::default()];
         let maps = if self.maps.is_empty() { &nothing[..] } else { &self.maps[..] };
-        let mut canvas = Canvas::new(0.0, 0.0, &self.title);
+        let beside = if maps.len() == 4 { 2 } else { maps.len().min(3) };
         let axes: Vec<_> = maps.iter().map(|m| frame::vertical(m.ends(), SIZE)).collect();
-        let lefts: Vec<f64> = axes.iter().map(|axis| frame::left_of([axis])).collect();
-        canvas.width = lefts.iter().map(|left| left + SIZE + 10.0).sum::<f64>() + MARGIN;
+        let indent = frame::left_of(&axes);
+        let (wide, high) = (indent + SIZE + 10.0, SIZE + NUMBERS_BELOW + LABEL_BELOW + 8.0);
+        let mut canvas = Canvas::new(beside as f64 * wide + MARGIN, 0.0, &self.title);
         let top = frame::heading(&mut canvas, &self.title);
-        let entries = self.legend();
-        let width = canvas.width - lefts[0] - MARGIN;
-        frame::legend(&mut canvas, (lefts[0], top), width, &entries);
-        let factor = if axes.iter().any(|axis| axis.is_scaled()) { 14.0 } else { 0.0 };
-        let top = top + frame::legend_height(&entries, width) + factor;
-        let mut left = 0.0;
-        for ((map, y), indent) in maps.iter().zip(axes).zip(lefts) {
-            left += indent;
+        let (entries, width) = (self.legend(), canvas.width - indent - MARGIN);
+        frame::legend(&mut canvas, (indent, top), width, &entries);
+        let above = if axes.iter().any(Axis::is_scaled) { 18.0 } else { 2.0 };
+        let top = top + frame::legend_height(&entries, width);
+        for (index, (map, y)) in maps.iter().zip(axes).enumerate() {
+            let left = (index % beside) as f64 * wide + indent;
+            let top = top + (index / beside) as f64 * (high + above) + above;
             let sides = Sides { left, right: left + SIZE, top, bottom: top + SIZE };
-            let x = frame::horizontal(map.ends(), SIZE);
-            map.draw(&mut canvas, &Frame { sides, x, y, indent });
-            left += SIZE + 10.0;
+            map.draw(&mut canvas, &Frame { sides, x: frame::horizontal(map.ends(), SIZE), y, indent });
         }
-        canvas.height = top + SIZE + NUMBERS_BELOW + LABEL_BELOW + MARGIN;
+        canvas.height = top + maps.len().div_ceil(beside) as f64 * (high + above) + MARGIN - 8.0;
         canvas
     }
 }

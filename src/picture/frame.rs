@@ -57,7 +57,7 @@ pub(super) fn horizontal(ends: (f64, f64), width: f64) -> Axis {
 
 /// Axis of a vertical side.
 pub(super) fn vertical(ends: (f64, f64), height: f64) -> Axis {
-    Axis::new(ends, ((height / 40.0) as usize).clamp(2, 9))
+    Axis::new(ends, ((height / 32.0) as usize).clamp(2, 10))
 }
 
 /// Room to the left of a frame: for the label, and the numbers of all vertical axes.

@@ -31,6 +31,7 @@ pub use cobweb::{Cobweb, Return};
 pub use line::Line;
 pub use path::{Path, Places, Stretches};
 pub use series::{Curve, Event, Level, Panel, Series};
+pub(crate) use svg::escape;
 pub use write::{PictureError, check_name, write};
 
 use crate::provenance::Provenance;

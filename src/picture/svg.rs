@@ -25,7 +25,7 @@ pub(super) fn text(canvas: &Canvas, setting: Setting<'_>) -> String {
     );
     out += &format!("<title>{title}</title>\n");
     if let Setting::File(provenance) = setting {
-        out += &format!("<metadata id=\"{}\">{}</metadata>\n", provenance::KEY, escape(&provenance.line()));
+        out += &format!("<metadata id=\"{}\">{}</metadata>\n", provenance::KEY, provenance.line());
     }
     let mut pen = Pen { out, setting };
     pen.cell((0.0, 0.0), (canvas.width, canvas.height), Ink::Paper);

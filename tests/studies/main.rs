@@ -5,10 +5,10 @@
 mod basin;
 #[path = "../common/mod.rs"]
 mod common;
-mod simulate;
 mod dask;
 mod interrupted;
 mod refused;
+mod simulate;
 mod sweep;
 mod table;
 

@@ -40,6 +40,11 @@ impl Sheet {
         page_markdown::page(self)
     }
 
+    /// The measures: their names, and their expressions as the spec has them.
+    pub fn measures(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.measures.iter().map(|measure| (measure.name.name.as_str(), measure.formula.source.as_str()))
+    }
+
     /// Modes and transitions, one arrow a line.
     pub fn graph_text(&self) -> String {
         graph::text(self)

@@ -1,0 +1,98 @@
+//! A run over time, and the path of its body.
+
+use crate::load::Loaded;
+use crate::motion::{self, BodyPath};
+use crate::picture::{Curve, Event, Level, Panel, Path, Places, Series, Stretches, label};
+use gaitc_compiler::ir::{Joint, Observation};
+use gaitc_runtime::trajectory::Trajectory;
+
+/// A run to be drawn.
+#[derive(Clone, Copy)]
+pub struct Run<'a> {
+    /// The model.
+    pub loaded: &'a Loaded,
+    /// All parameters in SI units.
+    pub parameters: &'a [f64],
+    /// Where it went.
+    pub trajectory: &'a Trajectory,
+}
+
+impl Run<'_> {
+    /// What the spec's drawing finds worth plotting, over time; without a drawing that has panels, nothing.
+    /// `levels` names the horizontal lines that belong to an observation, with their values in SI units.
+    #[must_use]
+    pub fn over_time(&self, title: &str, levels: &dyn Fn(&Observation) -> Vec<(String, f64)>) -> Series {
+        let panels = self.loaded.observations.drawing().map_or(&[][..], |drawing| &drawing.panels);
+        let events = self.trajectory.events.iter().map(|event| Event {
+            at: event.time,
+            label: self.loaded.spec.transitions.get(event.transition).map_or("", |t| &t.name).to_owned(),
+        });
+        Series {
+            title: title.to_owned(),
+            x: label("time", "s"),
+            panels: panels.iter().map(|panel| self.panel(panel, levels)).collect(),
+            events: events.collect(),
+        }
+    }
+
+    fn panel(&self, observations: &[Observation], levels: &dyn Fn(&Observation) -> Vec<(String, f64)>) -> Panel {
+        let values = motion::observe(&self.loaded.observations, observations, self.parameters, self.trajectory);
+        let unit = observations.first().map_or("", |o| o.unit.as_str());
+        let names: Vec<&str> = observations.iter().map(|o| o.name.as_str()).collect();
+        let mut panel = Panel { y: label(&names.join(", "), unit), ..Panel::default() };
+        for (index, (observation, values)) in observations.iter().zip(&values).enumerate() {
+            let levels = levels(observation);
+            // A single curve has its name beside the axis.
+            let name = if observations.len() == 1 && levels.is_empty() { "" } else { &observation.name };
+            panel.curves.push(Curve { name: name.to_owned(), points: self.points(values) });
+            panel.levels.extend(levels.into_iter().map(|(name, value)| Level { name, value, curve: Some(index) }));
+        }
+        panel
+    }
+
+    /// With a gap between both sides of each transition.
+    fn points(&self, values: &[f64]) -> Vec<(f64, f64)> {
+        let samples = &self.trajectory.samples;
+        let mut points = Vec::with_capacity(values.len());
+        for (i, (&t, &value)) in samples.t.iter().zip(values).enumerate() {
+            if i > 0 && samples.segment.get(i - 1) != samples.segment.get(i) {
+                points.push((t, f64::NAN));
+            }
+            points.push((t, value));
+        }
+        points
+    }
+
+    /// The path of the body with the points that are held, and the links as they stand at transitions.
+    #[must_use]
+    pub fn path(&self, title: &str, body: &BodyPath) -> Path {
+        let segment = &self.trajectory.samples.segment;
+        let starts = || (0..segment.len()).filter(|&i| i == 0 || segment.get(i - 1) != segment.get(i));
+        let finite = |p: (f64, f64)| p.0.is_finite() && p.1.is_finite();
+        let held = body.points.iter().filter(|point| point.held).map(|point| {
+            let mut at: Vec<(f64, f64)> = starts().filter_map(|i| point.at.get(i).copied()).collect();
+            at.retain(|&place| finite(place));
+            Places { name: point.name.clone(), at }
+        });
+        let stretches = body.links.iter().map(|link| {
+            let ends = starts().filter_map(|i| Some([body.joint(link[0], i)?, body.joint(link[1], i)?]));
+            let name = link.map(|joint| joint_name(joint, body)).join(" to ");
+            Stretches { name, ends: ends.filter(|ends| ends.iter().all(|&end| finite(end))).collect() }
+        });
+        Path {
+            title: title.to_owned(),
+            x: label("to the right", "m"),
+            y: label("up", "m"),
+            curves: vec![Curve { name: "body".to_owned(), points: body.body.clone() }],
+            stretches: stretches.collect(),
+            places: held.collect(),
+        }
+    }
+}
+
+fn joint_name(joint: Joint, body: &BodyPath) -> String {
+    match joint {
+        Joint::Body => "body".to_owned(),
+        Joint::Point(point) => body.points.get(point).map_or("?", |point| &point.name).to_owned(),
+    }
+}

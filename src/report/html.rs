@@ -1,0 +1,49 @@
+//! Pieces of HTML. Text goes into a page only through `text`, which escapes it.
+
+use super::{Figure, Table};
+use crate::picture::{escape, inline_svg};
+
+/// Escaped text.
+pub(super) fn text(text: &str) -> String {
+    escape(text)
+}
+
+/// An element around what is HTML already.
+pub(super) fn element(tag: &str, inner: &str) -> String {
+    format!("<{tag}>{inner}</{tag}>\n")
+}
+
+/// A part of the page with its heading; nothing where it has no content.
+pub(super) fn section(id: &str, heading: &str, inner: &str) -> String {
+    match inner.trim() {
+        "" => String::new(),
+        inner => format!("<section id=\"{id}\">\n<h2>{}</h2>\n{inner}\n</section>\n", text(heading)),
+    }
+}
+
+/// A table; it scrolls by itself where it is wider than the page.
+pub(super) fn table(table: &Table) -> String {
+    if table.rows.is_empty() {
+        return String::new();
+    }
+    let head: String = table.header.iter().map(|name| format!("<th scope=\"col\">{}</th>", text(name))).collect();
+    let row = |row: &Vec<String>| {
+        let cells = row.iter().enumerate().map(|(i, cell)| match i {
+            0 => format!("<th scope=\"row\">{}</th>", text(cell)),
+            _ => format!("<td>{}</td>", text(cell)),
+        });
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
+    };
+    let rows: String = table.rows.iter().map(row).collect();
+    let caption = if table.caption.is_empty() { String::new() } else { element("caption", &text(&table.caption)) };
+    format!(
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
+        text(&table.caption)
+    )
+}
+
+/// A picture within the page.
+pub(super) fn figure(figure: &Figure) -> String {
+    let caption = element("figcaption", &text(&figure.caption));
+    format!("<figure>\n<div class=\"wide\">{}</div>{caption}</figure>\n", inline_svg(&*figure.picture))
+}
