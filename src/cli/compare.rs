@@ -1,7 +1,7 @@
 //! `gaitc compare [MODEL]`: what others have published, beside what is computed.
 
 use super::args::Cli;
-use super::{InputError, Outcome, gait, inputs, output, plots, provenance, show};
+use super::{InputError, Outcome, inputs, output, plots, provenance, show};
 use crate::figures;
 use crate::load::{Loaded, load};
 use crate::models::MODELS;

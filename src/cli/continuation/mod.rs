@@ -12,7 +12,7 @@ mod words;
 pub(super) use args::ContinueArgs;
 
 use super::args::Cli;
-use super::{InputError, Outcome, gait, inputs, optimize, output, plots, provenance};
+use super::{InputError, Outcome, inputs, optimize, output, plots, provenance};
 use crate::files;
 use crate::load::{Loaded, load};
 use crate::provenance::Provenance;
