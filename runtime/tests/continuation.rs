@@ -197,10 +197,10 @@ fn an_isola_closes() {
     assert_abs_diff_eq!(folds[0].abs(), 0.5, epsilon = 1e-12);
 }
 
-/// The map x+ = x/2 + sqrt(1 - p)/2 is not there beyond p = 1.
+/// x+ = x/2 + p/2 has no next section crossing from p = 1 on.
 #[test]
 fn where_the_map_stops_is_located() {
-    let map = Formula::new(|&[x], &[p]| (p < 1.0).then(|| ([0.5 * x + 0.5 * p], [[0.5]], [[0.5]])));
+    let map = Formula::new(|&[x], &[p]| (p < 1.0).then_some(([0.5 * x + 0.5 * p], [[0.5]], [[0.5]])));
     let all = run(&map, &[0.2], (0.0, 3.0), &[0.2], Settings::default());
     let branch = &all.branches[0];
     let EndReason::MapStops(stop) = &branch.ends[1] else { panic!("{:?}", branch.ends) };
