@@ -16,7 +16,7 @@ fn sizes(groups: &Groups) -> Vec<usize> {
 
 #[test]
 fn what_is_apart_is_separated_and_stays_so_until_it_is_close() {
-    let at = |angle: f64| [&pair(1.0, 0.6)[..], &pair(0.9, angle), &[Complex::new(-0.3, 0.0)]].concat();
+    let at = |angle: f64| [&pair(1.0, 0.6)[..], &pair(0.98, angle), &[Complex::new(-0.3, 0.0)]].concat();
     let apart = Groups::whole(&at(2.0)).settled();
     assert_eq!(sizes(&apart), [1, 2, 2]);
     // Between both distances what is separate stays separate, and what is together stays together.
@@ -27,7 +27,7 @@ fn what_is_apart_is_separated_and_stays_so_until_it_is_close() {
     let joined = followed.followed(&at(closer)).unwrap().settled();
     assert_eq!(sizes(&joined), [1, 4]);
     assert_eq!(sizes(&joined.followed(&at(close)).unwrap().settled()), [1, 4]);
-    let far = joined.followed(&at(0.8)).unwrap().settled();
+    let far = joined.followed(&at(0.85)).unwrap().settled();
     assert_eq!(sizes(&far), [1, 2, 2]);
 }
 
