@@ -27,7 +27,7 @@ fn a_folder_that_is_in_use_or_holds_something_else_is_left_alone() {
         refused(&args, &[&["another study"], expected].concat());
     };
     other(&["--over", "psi=5..40 deg:13", "--over", "omega=15, 20 rad/s"], &["`over`", "psi=5..40 deg:12"]);
-    other(&[&GRID[2..], &["--set", "l_s=0.1 m"]].concat(), &["`set.l_s`", "0.13", "0.1 m"]);
+    other(&[&GRID[2..], &["--set", "l_s=0.1 m"]].concat(), &["`set.l_s`", "13 cm", "10 cm"]);
     other(&[&GRID[2..], &["--tol", "1e-9"]].concat(), &["`tol` is nothing there", "1e-9"]);
     other(&[&GRID[2..], &["--chunk", "3"]].concat(), &["`chunk`", "100", "3"]);
     other(&[&GRID[2..], &["--shard", "1/2"]].concat(), &["shard 1/1 there, 1/2 here"]);

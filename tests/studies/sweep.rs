@@ -117,7 +117,7 @@ fn people_are_told_what_was_found_and_where_it_is() {
     let (first, rest) = table.split_once('\n').unwrap();
     let origin: Value = serde_json::from_str(first.strip_prefix("# ").unwrap()).unwrap();
     assert_eq!((&origin["run"]["command"], &origin["run"]["over"][0]), (&"sweep".into(), &"psi=5..40 deg:12".into()));
-    assert!(origin["run"]["set"]["l_b"].as_str().unwrap().ends_with(" m"), "{origin:#}");
+    assert!(origin["run"]["set"]["l_b"].as_str().unwrap().ends_with(" cm"), "{origin:#}");
     assert!(rest.starts_with("point,psi [rad],omega [rad/s],status,route,duration [s],stable,"), "{rest}");
     assert_eq!(rest.lines().count(), 25);
     // What made it makes it again.
