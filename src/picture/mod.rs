@@ -63,7 +63,8 @@ pub fn svg(picture: &dyn Picture, provenance: &Provenance) -> String {
     svg::text(&picture.draw(), svg::Setting::File(provenance))
 }
 
-/// The picture as an `svg` element of an HTML page, whose styles choose the colours `--ink`, `--muted`, `--grid` and `--paper`.
+/// The picture as an `svg` element of an HTML page, whose styles choose the colours `--ink`, `--muted`, `--grid`, `--paper`
+/// and `--hue-0` to `--hue-6`.
 #[must_use]
 pub fn inline_svg(picture: &dyn Picture) -> String {
     svg::text(&picture.draw(), svg::Setting::Page)

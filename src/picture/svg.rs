@@ -10,7 +10,7 @@ use std::fmt::Write;
 pub(super) enum Setting<'p> {
     /// In a file of its own, on white.
     File(&'p Provenance),
-    /// Within a page whose styles choose `--ink`, `--muted`, `--grid` and `--paper`.
+    /// Within a page whose styles choose `--ink`, `--muted`, `--grid`, `--paper` and `--hue-0` to `--hue-6`.
     Page,
 }
 
@@ -47,19 +47,16 @@ impl Pen<'_> {
     }
 
     fn ink(&self, ink: Ink) -> String {
-        let name = match ink {
-            Ink::Text => "ink",
-            Ink::Muted => "muted",
-            Ink::Grid => "grid",
-            Ink::Paper => "paper",
-            Ink::Hue(_) => "",
-        };
-        match self.setting {
-            Setting::Page if !name.is_empty() => format!("var(--{name})"),
-            _ => {
-                let [r, g, b] = palette::light(ink);
-                format!("#{r:02x}{g:02x}{b:02x}")
-            }
+        if let Setting::File(_) = self.setting {
+            let [r, g, b] = palette::light(ink);
+            return format!("#{r:02x}{g:02x}{b:02x}");
+        }
+        match ink {
+            Ink::Text => "var(--ink)".to_owned(),
+            Ink::Muted => "var(--muted)".to_owned(),
+            Ink::Grid => "var(--grid)".to_owned(),
+            Ink::Paper => "var(--paper)".to_owned(),
+            Ink::Hue(index) => format!("var(--hue-{})", index % palette::HUES.len()),
         }
     }
 

@@ -184,7 +184,7 @@ fn wrong_requests_are_refused_and_a_model_without_a_gait_gets_its_page() {
         (&["report", "prescribed_length", "--out", &place("page.html"), "--steps", "0"], "from 1 to"),
         (&["report", "prescribed_length", "--out", &place("page.html"), "--steps", "100000000"], "from 1 to"),
         (&["report", "prescribed_lenght", "--out", &place("page.html")], "did you mean `prescribed_length`"),
-        (&["report", "prescribed_length", "--out", &place("page.html"), "--set", "psi=3 m"], "psi"),
+        (&["report", "prescribed_length", "--out", &place("page.html"), "--set", "psi=3 m"], "dimensionless"),
     ] {
         let (code, _, errors) = text(args);
         assert_eq!(code, 1, "{args:?}: {errors}");
