@@ -198,7 +198,7 @@ impl Manifest {
     /// In words, when the file does not say so.
     pub fn provenance(&self) -> Result<Provenance, String> {
         let text = |key: &str| self.provenance.get(key).and_then(Value::as_str).map(str::to_owned);
-        let run = self.provenance.get("run").map(|run| toml::Table::try_from(run));
+        let run = self.provenance.get("run").map(toml::Table::try_from);
         match (text("model"), text("fingerprint"), run) {
             (Some(model), Some(fingerprint), Some(Ok(run))) => {
                 Ok(Provenance { model, fingerprint, spec: text("spec").unwrap_or_default(), run })

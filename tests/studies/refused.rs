@@ -139,7 +139,7 @@ fn wrong_input_is_explained() {
     sweep(&["--over", "psi=5..5 deg:3"], &["both ends of the range are the same"]);
     sweep(&["--over", "psi=45..1 deg:3"], &["above the upper one"]);
     sweep(&["--over", "psi=1..45 kg:3"], &["kg"]);
-    sweep(&["--over", "omega=15, 20 m"], &["omega", "m"][1..].as_ref());
+    sweep(&["--over", "omega=15, 20 m"], &["not m"]);
     sweep(&["--over", "omega=15,, 20 rad/s"], &["missing"]);
     sweep(&["--over", "phi=1..45 deg:3"], &["no parameter is named `phi`"]);
     sweep(&["--over", "psi=1..45 deg:3", "--over", "psi=1, 2 deg"], &["given twice"]);
