@@ -98,14 +98,17 @@ fn files_hold_the_curve_with_units_and_appear_whole() {
     let folder = tempfile::tempdir().unwrap();
     let (csv, svg) = (folder.path().join("curve.csv"), folder.path().join("curve.svg"));
     fs::write(&csv, "old").unwrap();
-    let mut args = [&SPRAWL[..], &["--points", "4", "--csv"]].concat();
+    let mut args = [&SPRAWL[..], &["--points", "4", "--out"]].concat();
     args.extend([csv.to_str().unwrap(), "--plot", svg.to_str().unwrap()]);
     let (code, out, errors) = text(&args);
     assert_eq!((code, errors.as_str()), (0, ""), "{out}");
     let rows: Vec<String> = fs::read_to_string(&csv).unwrap().lines().map(str::to_owned).collect();
-    assert_eq!(rows.len(), 5, "{rows:?}");
-    assert!(rows[0].starts_with("climb_speed [m/s],spectral_radius,slope,psi [deg],"), "{}", rows[0]);
-    let psi: f64 = rows[1].split(',').nth(3).unwrap().parse().unwrap();
+    assert_eq!(rows.len(), 6, "{rows:?}");
+    assert!(
+        rows[0].starts_with("# {\"fingerprint\":") && rows[0].contains("\"trade\":\"climb_speed:spectral_radius\"")
+    );
+    assert!(rows[1].starts_with("climb_speed [m/s],spectral_radius,slope,psi [deg],"), "{}", rows[1]);
+    let psi: f64 = rows[2].split(',').nth(3).unwrap().parse().unwrap();
     assert_abs_diff_eq!(psi, 5.0, epsilon = 1e-9);
     let picture = fs::read_to_string(&svg).unwrap();
     for label in ["climb_speed [m/s]", "spectral_radius", "psi = 5 deg", "psi = 34 deg"] {
@@ -115,12 +118,14 @@ fn files_hold_the_curve_with_units_and_appear_whole() {
     // Nowhere to write to: said before the work begins, as one document.
     let lost = folder.path().join("no/such/folder.csv");
     let lost = lost.to_str().unwrap();
-    let (code, error) = json(&[&SPRAWL[..], &["--points", "2", "--csv", lost]].concat());
-    assert!(code == 1 && error["message"].as_str().unwrap().contains("--csv"), "{error:#}");
+    let (code, error) = json(&[&SPRAWL[..], &["--points", "2", "--out", lost]].concat());
+    assert!(code == 1 && error["message"].as_str().unwrap().contains("--out"), "{error:#}");
     // A disk that turns out to be full: said, with the curve all the same.
     #[cfg(target_os = "linux")]
     {
-        let (code, curve) = json(&[&SPRAWL[..], &["--points", "2", "--csv", "/dev/full"]].concat());
+        let full = folder.path().join("full.csv");
+        std::os::unix::fs::symlink("/dev/full", &full).unwrap();
+        let (code, curve) = json(&[&SPRAWL[..], &["--points", "2", "--out", full.to_str().unwrap()]].concat());
         assert_eq!((code, points(&curve).len()), (1, 2), "{curve:#}");
     }
 }
@@ -134,7 +139,7 @@ fn a_file_keeps_its_permissions() {
     let csv = folder.path().join("curve.csv");
     fs::write(&csv, "old").unwrap();
     fs::set_permissions(&csv, fs::Permissions::from_mode(0o600)).unwrap();
-    let (code, ..) = text(&[&SPRAWL[..], &["--points", "2", "--csv", csv.to_str().unwrap()]].concat());
+    let (code, ..) = text(&[&SPRAWL[..], &["--points", "2", "--out", csv.to_str().unwrap()]].concat());
     assert_eq!((code, fs::metadata(&csv).unwrap().permissions().mode() & 0o777), (0, 0o600));
 }
 
@@ -156,7 +161,7 @@ fn what_cannot_be_traded_is_said() {
         (&["--trade", "climb_speed:"], &["missing"]),
         (&["--trade", "climb_sped:spectral_radius"], &["climb_sped", "climb_speed"]),
         (&["--trade", "climb_sped:mean_power"], &["climb_sped", "did you mean `climb_speed`"]),
-        (&["--trade", "climb_speed:mean_power", "--csv", "a", "--plot", "a"], &["the same file"]),
+        (&["--trade", "climb_speed:mean_power", "--out", "a", "--plot", "a"], &["the same file"]),
         (&["--trade", "climb_speed:mean_power", "--plot", "a.png"], &["pictures are SVG", "`.svg`"]),
         (
             &["--trade", "climb_speed:mean_power", "--maximize", "peak_force", "--vary", "psi=5..30 deg"],

@@ -232,9 +232,9 @@ pub(crate) struct OptimizeArgs {
     /// Number of points of the trade-off curve
     #[arg(long, default_value_t = 20, value_name = "N", requires = "trade", value_parser = whole)]
     pub(crate) points: usize,
-    /// Write the trade-off curve as CSV
+    /// Write the trade-off curve as CSV or Parquet
     #[arg(long, value_name = "FILE", requires = "trade")]
-    pub(crate) csv: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Draw the trade-off curve as SVG or PNG
     #[arg(long, value_name = "FILE", requires = "trade")]
     pub(crate) plot: Option<PathBuf>,

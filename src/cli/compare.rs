@@ -6,6 +6,7 @@ use crate::figures;
 use crate::load::{Loaded, load};
 use crate::models::MODELS;
 use crate::picture::{Series, label};
+use crate::provenance::Provenance;
 use crate::published::{Comparison, compare, name};
 use clap::Args;
 use gaitc_compiler::front::format_quantity;
@@ -47,7 +48,12 @@ pub(super) fn run(cli: &Cli, args: &CompareArgs) -> Result<Outcome, InputError> 
         }
     }
     if cli.json {
-        output::json(&json!({ "comparisons": all }));
+        // Several models have several fingerprints: each stands in the results of its model alone.
+        let made = match &loaded[..] {
+            [model] => provenance::of(&cli.run, model, &model.parameters()),
+            _ => Provenance { run: cli.run.clone(), ..Provenance::default() },
+        };
+        output::result(&made, json!({ "comparisons": all }));
     } else {
         output::print(&texts.join("\n"));
     }

@@ -10,7 +10,7 @@ use gaitc_compiler::ir::Parameter;
 use toml::{Table, Value};
 
 /// Flags that change nothing in a result: what is printed where, and how the work is done.
-const ELSEWHERE: [&str; 20] = [
+const ELSEWHERE: [&str; 19] = [
     "json",
     "specs",
     "quiet",
@@ -19,7 +19,6 @@ const ELSEWHERE: [&str; 20] = [
     "version",
     "threads",
     "out",
-    "csv",
     "plot",
     "plot_map",
     "plot_multipliers",

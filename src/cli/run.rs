@@ -20,7 +20,7 @@ const LARGEST: u64 = 1 << 30;
 #[command(
     after_help = "A run file is TOML: the command, and its arguments by their long names.\n\n  command = \"gait\"\n  model = \
                   \"prescribed_length\"\n  tol = 1e-10\n\n  [set]\n  psi = \"25 deg\"\n\nExamples:\n  gaitc run study.toml\n  \
-                  gaitc run result.json --json\n  gaitc run trade.svg --csv trade.csv"
+                  gaitc run result.json --json\n  gaitc run trade.svg --out trade.csv"
 )]
 pub(crate) struct RunArgs {
     /// A run file, or a result

@@ -10,6 +10,7 @@ use crate::files;
 use crate::load::Loaded;
 use crate::problem::{Start, assemble};
 use crate::provenance::Provenance;
+use crate::table;
 use gaitc_compiler::ir::{self, Binary};
 use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Solution, Status, TradeOutcome, trade};
 use quantity::Quantity;
@@ -65,8 +66,10 @@ pub(super) fn run(
         output::print(&report.text());
     }
     if let TradeOutcome::Curve(curve) = &outcome {
-        if let Some(path) = &args.csv {
-            save(path, report.csv(curve));
+        if let Some(path) = &args.out
+            && let Err(error) = table::write(&report.table(curve), path, provenance)
+        {
+            output::lose(&not_written(path, &error));
         }
         if let Some(path) = &args.plot {
             plots::save("--plot", path, &report.picture(curve), provenance);
@@ -84,28 +87,21 @@ pub(super) fn run(
 
 /// Refuses files that cannot be written, or not as what they are named, before the work begins.
 fn places(args: &OptimizeArgs) -> Result<(), InputError> {
-    if args.csv.is_some() && args.csv == args.plot {
-        return Err(InputError("--csv and --plot name the same file\n  help: name two".to_owned()));
+    if args.out.is_some() && args.out == args.plot {
+        return Err(InputError("--out and --plot name the same file\n  help: name two".to_owned()));
     }
     if let Some(path) = &args.plot {
         plots::check("--plot", path)?;
     }
-    if let Some(path) = &args.csv {
+    if let Some(path) = &args.out {
+        table::Format::of(path).map_err(|error| InputError(format!("--out {error}")))?;
         files::try_place(path).map_err(|error| InputError(not_written(path, &error)))?;
     }
     Ok(())
 }
 
-/// Writes a file; what was printed stands even if that fails.
-fn save(path: &Path, contents: Result<Vec<u8>, Box<dyn std::error::Error>>) {
-    let written = contents.and_then(|contents| Ok(files::write(path, &contents)?));
-    if let Err(error) = written {
-        output::lose(&not_written(path, &error));
-    }
-}
-
 fn not_written(path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("--csv {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
+    format!("--out {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
 }
 
 impl<'l> Trade<'l> {

@@ -1,10 +1,11 @@
-//! A trade-off curve as table, JSON, CSV and picture.
+//! A trade-off curve as table, JSON and picture.
 
 use super::Trade;
 use super::quantity::Quantity;
 use crate::cli::optimize::report::status;
 use crate::cli::output;
 use crate::picture::{Line, Mark};
+use crate::table::{Column, Table, Values};
 use gaitc_compiler::front::{format_quantity, in_unit};
 use gaitc_compiler::ir::{Parameter, Sense};
 use gaitc_runtime::optimize::{Aim, Curve, Gap, Solution, TradeOutcome, TradePoint};
@@ -157,36 +158,31 @@ impl Report<'_, '_> {
         slope.map_or_else(String::new, gaitc_compiler::front::format_number)
     }
 
-    /// One row a point, units in the header; every value with all its digits.
-    pub(super) fn csv(&self, curve: &Curve) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    /// One row a point, every column in the unit that its name or the spec has.
+    pub(super) fn table(&self, curve: &Curve) -> Table {
         let (a, b) = (&self.trade.first, &self.trade.second);
-        let with_unit = |name: &str, unit: &str| match unit {
-            "" | "1" => name.to_owned(),
-            unit => format!("{name} [{unit}]"),
+        let column = |name: &str, unit: &str, doc: &str, value: &dyn Fn(&TradePoint) -> f64| Column {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            doc: doc.to_owned(),
+            values: Values::Number(curve.points.iter().map(value).collect()),
         };
-        let varied = self.varied();
-        let others: Vec<usize> = (0..self.trade.spec.measures.len())
-            .filter(|&i| ![&a.text, &b.text].contains(&&self.trade.spec.measures[i].name))
-            .collect();
-        let mut header = vec![a.label(), b.label(), "slope".to_owned()];
-        header.extend(varied.iter().map(|p| with_unit(&p.name, &p.unit)));
-        header.extend(
-            others.iter().map(|&i| with_unit(&self.trade.spec.measures[i].name, &self.trade.spec.measures[i].unit)),
+        let slope = |p: &TradePoint| p.slope.map_or(f64::NAN, |slope| a.number(slope) / b.number(1.0));
+        let mut columns = vec![
+            column(&a.text, &a.unit, "the best for the second quantity", &|p| a.number(p.first)),
+            column(&b.text, &b.unit, "the second quantity", &|p| b.number(p.second)),
+            column("slope", "", &format!("of {} per unit of {}", a.label(), b.label()), &slope),
+        ];
+        columns.extend(self.trade.problem.vary.iter().map(|v| {
+            let p = &self.trade.spec.parameters[v.parameter];
+            column(&p.name, &p.unit, &p.doc, &|point| in_unit(point.solution.parameters[v.parameter], &p.unit))
+        }));
+        let others =
+            self.trade.spec.measures.iter().enumerate().filter(|(_, m)| ![&a.text, &b.text].contains(&&m.name));
+        columns.extend(
+            others.map(|(i, m)| column(&m.name, &m.unit, &m.doc, &|p| in_unit(p.solution.measures[i], &m.unit))),
         );
-        let mut table = csv::Writer::from_writer(Vec::new());
-        table.write_record(&header)?;
-        for point in &curve.points {
-            let slope = point.slope.map_or_else(String::new, |slope| (a.number(slope) / b.number(1.0)).to_string());
-            let mut row = vec![a.number(point.first).to_string(), b.number(point.second).to_string(), slope];
-            row.extend(varied.iter().zip(self.values(&point.solution)).map(|(p, v)| in_unit(v, &p.unit).to_string()));
-            row.extend(
-                others
-                    .iter()
-                    .map(|&i| in_unit(point.solution.measures[i], &self.trade.spec.measures[i].unit).to_string()),
-            );
-            table.write_record(&row)?;
-        }
-        Ok(table.into_inner()?)
+        Table { columns }
     }
 
     /// The curve over the second quantity, its ends named by what varies.
