@@ -4,7 +4,7 @@ use crate::load::Loaded;
 use gaitc_compiler::ir::eval::{Environment, derivative, value};
 use gaitc_compiler::ir::{self, Graph, Node, NodeId, Symbol};
 use gaitc_runtime::optimize::{
-    Bound, Constraint, ConstraintKind, Expression, Objective, Problem, Sense, Settings, Value, Vary,
+    Bound, Constraint, ConstraintKind, Expression, Objective, Problem, Sense, Settings, Uncertain, Value, Vary,
 };
 use std::sync::Arc;
 
@@ -59,6 +59,12 @@ pub fn assemble<'a>(loaded: &'a Loaded, spec: &ir::Model, problem: &ir::Problem,
         start: start.section,
         settings: start.settings,
     }
+}
+
+/// What a problem is robust over, as [`gaitc_runtime::optimize::solve_robust`] takes it; empty for a problem without uncertainty.
+pub fn uncertain(problem: &ir::Problem) -> Vec<Uncertain> {
+    let one = |u: &ir::Uncertain| Uncertain { parameter: u.parameter, lower: u.lower, upper: u.upper };
+    problem.robust.iter().map(one).collect()
 }
 
 /// The value of an expression in which nothing varies: neither measures nor the problem's parameters are in it, but for

@@ -7,6 +7,8 @@ mod common;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::{json, number, text};
 use serde_json::Value;
+use std::fs;
+use std::path::Path;
 
 fn optimum(args: &[&str]) -> Value {
     let (code, solution) = json(args);
@@ -64,11 +66,51 @@ fn the_price_is_the_slope_of_the_worst_case() {
     assert_relative_eq!(number(&at("0.95"), "/active/0/multiplier"), slope, max_relative = 1e-4);
 }
 
+/// A folder with a spec of the project, and something added to it.
+fn with(model: &str, name: &str, tables: &str) -> String {
+    let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&folder).unwrap();
+    let spec = fs::read_to_string(specs.join(format!("{model}.toml"))).unwrap();
+    fs::write(folder.join(format!("{model}.toml")), spec + tables).unwrap();
+    folder.to_str().unwrap().to_owned()
+}
+
+/// `robust` of a problem and `--robust` ask for the same; flags add to it and replace ranges.
+#[test]
+fn the_key_of_a_problem_does_what_the_flag_does() {
+    let problem = "[problems.grown]\nmaximize = \"climb_speed\"\nvary = { psi = [\"0 deg\", \"45 deg\"] }\n\
+                   robust = { l_s = [\"12 cm\", \"14 cm\"] }\nsubject_to = [\"spectral_radius <= 0.95\"]\n";
+    let specs = with("prescribed_length", "robust_key", problem);
+    let keyed = ["optimize", "prescribed_length", "--specs", &specs, "--problem", "grown"];
+    let flagged = ["optimize", "prescribed_length"];
+    let cases: [(&[&str], &[&str]); 3] = [
+        (&[], &["--robust", "l_s=12..14 cm"]),
+        (&["--robust", "l_b=45..55 cm"], &["--robust", "l_s=12..14 cm", "--robust", "l_b=45..55 cm"]),
+        (&["--robust", "l_s=13..14 cm"], &["--robust", "l_s=13..14 cm"]),
+    ];
+    for (added, flags) in cases {
+        let (by_key, by_flag) = (optimum(&[&keyed[..], added].concat()), optimum(&[&flagged[..], flags].concat()));
+        for part in ["parameters", "objective", "section", "active", "robust", "iterations", "confirmation", "notes"] {
+            assert_eq!(by_key[part], by_flag[part], "{added:?}");
+        }
+        assert!(!scenarios(&by_key).is_empty());
+    }
+    let cases: [(&[&str], &str); 2] = [
+        (&["--vary", "l_s=10..20 cm"], "`l_s` is varied, so it cannot be uncertain"),
+        (&["--trade", "climb_speed:mean_power"], "problem `grown` is robust"),
+    ];
+    for (flags, expected) in cases {
+        let (code, _, errors) = text(&[&keyed[..], flags].concat());
+        assert!(code != 0 && errors.contains(expected) && errors.contains("help:"), "{flags:?}: {errors}");
+    }
+}
+
 /// The design of the worst case, held, meets the constraints with every machine, and is never better than the nominal optimum.
 #[test]
 fn every_machine_of_the_self_exciting_climber_is_stable() {
     let nominal = optimum(&["optimize", "self_exciting"]);
-    let solution = optimum(&["optimize", "self_exciting", "--robust", "m=2.4..2.8 kg"]);
+    let solution = optimum(&["optimize", "self_exciting", "--problem", "payload"]);
     let value = number(&solution, "/objective/value");
     assert_relative_eq!(
         number(&solution, "/robust/nominal"),
@@ -121,5 +163,16 @@ fn a_constraint_that_one_machine_cannot_meet() {
     let flags = ["--subject-to", "peak_force <= 75 N", "--robust", "m=1..4 kg", "--set", "m=1 kg"];
     let (code, solution) = json(&[&["optimize", "prescribed_length"], &flags[..]].concat());
     assert_ne!(code, 0, "{solution:#}");
-    assert!(solution["message"].as_str().unwrap().contains("peak_force"), "{solution:#}");
+    let message = solution["message"].as_str().unwrap();
+    assert!(message.starts_with("`peak_force <= 75 N` cannot hold for all machines"), "{message}");
+    let (way, reached) = (&solution["robust"]["in_the_way"], "/robust/in_the_way/reached");
+    assert_eq!(number(way, "/parameters/m"), 4.0, "{solution:#}");
+    // The force is in proportion to the mass, and the one that can be reached is said in its unit.
+    let (least, psi) = (number(&solution, &format!("{reached}/value")), format!("{reached}/parameters/psi"));
+    assert!(least > 75.0 && message.contains("for m = 4 kg `peak_force` is at least "), "{message}");
+    let psi = format!("psi={} rad", number(&solution, &psi));
+    for (mass, force) in [("m=4 kg", least), ("m=1 kg", least / 4.0)] {
+        let (_, gait) = json(&["gait", "prescribed_length", "--set", mass, "--set", &psi]);
+        assert_relative_eq!(number(&gait, "/measures/peak_force"), force, max_relative = 1e-6);
+    }
 }

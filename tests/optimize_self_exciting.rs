@@ -123,6 +123,7 @@ fn fastest_stable(model: &Loaded) -> (Model, Problem) {
         objective_text: "climb_speed".to_owned(),
         objective_dimension,
         vary: [("G", "15..120"), ("psi", "1..45 deg"), ("k", "0..200 N/m")].into_iter().map(vary).collect(),
+        robust: Vec::new(),
         constraints: vec![constraint],
         period: 1,
     };

@@ -213,3 +213,51 @@ fn ctrl_c_prints_the_best_gait_so_far() {
     assert!(number(&value, "/measures/peak_force") <= 150.0 * (1.0 + 1e-6), "{value:#}");
     assert!(number(&value, "/objective/value") > 0.5 && number(&value, "/starts/run") < 100_000.0, "{value:#}");
 }
+
+/// What is written almost right is told how to be written.
+#[test]
+fn slips_in_flags_are_explained() {
+    let cases: [(&[&str], &str); 6] = [
+        (&["--vary", "psi=5...45 deg"], "write `5..45 deg`"),
+        (&["--starts", "1e3"], "write 1000"),
+        (&["--starts", "a few"], "write one in digits"),
+        (&["--vary", "psi=20..20 deg"], "nothing to vary: the range is a single value, `psi` = 20 deg"),
+        (&["--vary", "psi=20..20 deg", "--vary", "omega=18..18 rad/s"], "every range is a single value"),
+        (&["--work", "0"], "--work 0: give a number from 1"),
+    ];
+    for (flags, expected) in cases {
+        let (code, _, errors) = common::text(&[&["optimize", "prescribed_length"], flags].concat());
+        assert!(code != 0 && errors.contains(expected), "{flags:?}: {errors}");
+    }
+}
+
+/// Too little work for an optimum ends with the best gait so far, and more starts are not tried.
+#[test]
+fn work_that_is_used_up_is_said() {
+    let (code, value) = json(&["optimize", "prescribed_length", "--work", "3"]);
+    assert_eq!((code, value["status"].as_str()), (2, Some("work_limit")), "{value:#}");
+    assert_eq!(number(&value, "/starts/run"), 1.0);
+    assert!(value["message"].as_str().unwrap().contains("no optimum within 3 maps"), "{value:#}");
+    // A gait of fifty maps is one that a search can afford.
+    let long = ["optimize", "prescribed_length", "--period", "50", "--vary", "psi=15..25 deg"];
+    let (code, value) = json(&long);
+    assert_eq!((code, value["status"].as_str()), (0, Some("optimal")), "{value:#}");
+    assert_eq!(number(&value, "/confirmation/disturbed/maps"), 400.0, "{value:#}");
+}
+
+/// Where steps become too long for the time limit, that is what a stalled search says.
+#[test]
+fn a_step_beyond_the_time_limit_is_named() {
+    let (_, value) = json(&["optimize", "bouncing_ball", "--vary", "kick=0.1..10000 m/s"]);
+    assert_eq!(value["status"].as_str(), Some("stalled"), "{value:#}");
+    assert!(value["message"].as_str().unwrap().contains("no step ends within the time limit"), "{value:#}");
+}
+
+/// What is in the way of a trade-off is said in units.
+#[test]
+fn conflicts_of_trade_offs_are_in_units() {
+    let trade = ["--trade", "climb_speed:mean_power", "--points", "2", "--subject-to", "peak_force <= 20 N"];
+    let (code, value) = json(&[&["optimize", "prescribed_length"], &trade[..]].concat());
+    let message = value["message"].as_str().unwrap();
+    assert!(code == 2 && message.contains("`peak_force` is at least ") && message.contains(" N "), "{value:#}");
+}

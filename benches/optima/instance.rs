@@ -154,6 +154,7 @@ fn from_flags(spec: &mut Model, flags: &Flags) -> Problem {
         objective_text: flags.objective.to_owned(),
         objective_dimension,
         vary: flags.vary.iter().map(vary).collect(),
+        robust: Vec::new(),
         constraints,
         period: 1,
     }

@@ -130,6 +130,6 @@ pub const CASES: &[Case] = &[
         },
         &[1.1586065187],
     ),
-    named("self_exciting_rack", "fastest_stable", &[3.5159268576]),
+    named("self_exciting_rack", "fastest_stable", &[3.3899209180]),
     named("self_exciting_rotor", "fastest_stable", &[]),
 ];

@@ -42,6 +42,11 @@ pub struct Run {
 
 /// Solves from `count` random starts. Points without a gait are drawn again; how many there were comes second.
 pub fn run(instance: &Instance, count: usize, seed: u64) -> (Vec<Run>, usize) {
+    run_with(instance, count, seed, &Settings::default())
+}
+
+/// The same with other settings, but for the number of starts.
+pub fn run_with(instance: &Instance, count: usize, seed: u64, settings: &Settings) -> (Vec<Run>, usize) {
     let (home, mut state, mut without) = (instance.home(), seed, 0);
     let mut runs = Vec::new();
     while runs.len() < count && without < 100 * count {
@@ -51,7 +56,7 @@ pub fn run(instance: &Instance, count: usize, seed: u64) -> (Vec<Run>, usize) {
             without += 1;
             continue;
         };
-        let settings = Settings { starts: 1, ..Settings::default() };
+        let settings = Settings { starts: 1, ..settings.clone() };
         let start = Start { parameters, section, settings };
         let problem = assemble(&instance.loaded, &instance.spec, &instance.problem, start);
         let clock = Clock::start();

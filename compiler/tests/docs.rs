@@ -110,7 +110,7 @@ fn the_language_reference_compiles() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n\n"));
     let wheel = model(&running);
-    assert_eq!((wheel.measures.len(), wheel.problems.len()), (4, 1));
+    assert_eq!((wheel.measures.len(), wheel.problems.len()), (4, 2));
     assert!(wheel.transitions.iter().any(|transition| transition.surface));
     let sled = &specs["sled"];
     assert!(sled.modes[0].mass.is_some() && sled.transitions[0].also_zero.len() == 1);

@@ -3,7 +3,7 @@
 
 use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::flags::{
-    FlagError, parse_assignment, parse_constraint, parse_objective, parse_quantity, parse_range,
+    FlagError, Values, parse_assignment, parse_constraint, parse_objective, parse_quantity, parse_range, parse_values,
 };
 use gaitc_compiler::front::{parse_file, units::parse_unit};
 use gaitc_compiler::ir::{Model, Node, Symbol};
@@ -43,6 +43,25 @@ fn quantities() {
     assert_eq!(parse_quantity("-0.5", Dimension::NONE).unwrap(), -0.5);
     assert_eq!(parse_quantity("50 %", Dimension::NONE).unwrap(), 0.5);
     assert_eq!(parse_quantity("20°", Dimension::NONE).unwrap(), 20f64.to_radians());
+}
+
+#[test]
+fn values_of_a_sweep() {
+    let metre = dimension("m");
+    let range = |lower, upper, count| Values::Range { lower, upper, count };
+    assert_eq!(parse_values("0..2 m:11", metre).unwrap(), range(0.0, 2.0, Some(11)));
+    assert_eq!(parse_values("0..2 m", metre).unwrap(), range(0.0, 2.0, None));
+    assert_eq!(parse_values("-50 cm .. 2 m : 3", metre).unwrap(), range(-0.5, 2.0, Some(3)));
+    assert_eq!(parse_values("1, 2 cm, 5 m", metre).unwrap(), Values::List(vec![1.0, 0.02, 5.0]));
+    assert_eq!(parse_values("max(1, 2), 3 m", metre).unwrap(), Values::List(vec![2.0, 3.0]));
+    assert_eq!(parse_values("3", Dimension::NONE).unwrap(), Values::List(vec![3.0]));
+    assert_eq!(told(parse_values("1, 2 kg, 3 m", metre)).2, "2 kg");
+    assert_eq!(told(parse_values("1, 2", metre)).1, "the last value needs a unit");
+    assert_eq!(told(parse_values("0..2 m:x", metre)), told_str("E0101", "this is no number of values", "x"));
+    assert_eq!(told(parse_values("0..2 m:1:2", metre)).0, "E0104");
+    for wrong in ["", ",", "1 m,", "..", "0..2 m:", "0..2 m:0", "0..2 m:-1", "2..0 m:3", "(1, 2 m"] {
+        assert!(parse_values(wrong, metre).is_err(), "{wrong}");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use gaitc_compiler::diagnostic::render;
 use gaitc_compiler::front::parse_text;
 use gaitc_compiler::ir::canonical::fingerprint;
 use gaitc_compiler::ir::eval::{Environment, value};
-use gaitc_compiler::ir::{Direction, FunctionalKind, Model, Node, NodeId, Sense, Symbol};
+use gaitc_compiler::ir::{Direction, FunctionalKind, Model, Node, NodeId, Sense, Symbol, Uncertain};
 use std::path::Path;
 
 /// A node as text.
@@ -274,6 +274,24 @@ fn problems_hold_bounds_in_si_and_margins() {
         .collect();
     assert_eq!(bounds, [Some("div(k, 10)".to_owned()), None, None, Some("0.5".to_owned())]);
     assert_eq!(problem.constraints[1].text, "top >= 2*7 cm");
+}
+
+#[test]
+fn robust_problems_hold_ranges_in_si_and_are_data() {
+    let problem = |robust: &str| {
+        let tables = format!(
+            "{STEP}[measures]\ntop = {{ expr = \"cycle_max(x)\", unit = \"m\" }}\n[problems.p]\nminimize = \"top\"\n\
+             vary = {{ a = [\"10 cm\", \"2 m\"] }}\n{robust}\nsubject_to = [\"spectral_radius <= 0.9\"]\n"
+        );
+        model(&tables, "0")
+    };
+    let model = problem("robust = { k = [1, \"2\"] }");
+    let k = model.parameters.iter().position(|parameter| parameter.name == "k").unwrap();
+    let robust = &model.problems[0].robust;
+    assert_eq!(robust, &[Uncertain { parameter: k, lower: 1.0, upper: 2.0 }]);
+    let without = problem("");
+    assert!(without.problems[0].robust.is_empty());
+    assert_eq!(fingerprint(&model), fingerprint(&without));
 }
 
 #[test]

@@ -133,6 +133,17 @@ fn renaming_reaches_every_place() {
     assert_eq!((model.graph.nodes(), &model.modes[0].flow), (plain.graph.nodes(), &plain.modes[0].flow));
 }
 
+/// What a problem is robust over goes by the new name, also where nothing else names it.
+#[test]
+fn renaming_reaches_what_a_problem_is_robust_over() {
+    let part = "spec = 1\n[measures]\npeak = { expr = \"cycle_max(v)\", unit = \"m/s\" }\n[problems.p]\nminimize = \"peak\"\n\
+                vary = { g = [\"9 m/s^2\", \"10 m/s^2\"] }\nrobust = { load = [\"0.1 1/m\", \"0.9 1/m\"] }\n";
+    let uses = "[use.air]\npart = \"part.toml\"\nrename = { load = \"k\" }";
+    let model = accepted(parse(&spec(uses, "k = \"0.2 1/m\"", "k*v^2"), &[("part.toml", part)]));
+    let robust = &model.problems[0].robust;
+    assert_eq!(robust.iter().map(|u| model.parameters[u.parameter].name.as_str()).collect::<Vec<_>>(), ["k"]);
+}
+
 #[test]
 fn names_that_a_part_takes_from_its_user_can_be_renamed() {
     let drag = "spec = 1\n[let]\ndrag = \"speed*abs(speed)*g/viscosity^2\"\n";

@@ -147,6 +147,8 @@ fn slips_are_seen() {
         ("/memory/n", "initial", 0.5.into()),
         ("/memory/n", "initial", "0".into()),
         ("/problems/fastest", "vary", Value::Object(Default::default())),
+        ("/problems/fastest", "robust", Value::Object(Default::default())),
+        ("/problems/fastest", "robust", vec!["m"].into()),
         ("/problems/fastest", "minimize", "mean_power".into()),
         ("/problems/fastest", "default", "yes".into()),
     ] {

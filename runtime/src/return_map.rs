@@ -184,6 +184,20 @@ pub enum StopReason {
     Zeno,
 }
 
+impl StopReason {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NoEvent => "no_event",
+            Self::StepLimit => "step_limit",
+            Self::StepTooSmall => "step_too_small",
+            Self::NotFinite => "not_finite",
+            Self::Inconsistent => "inconsistent",
+            Self::Zeno => "zeno",
+        }
+    }
+}
+
 /// What a map ended with; both are results, not errors.
 #[derive(Clone, Debug)]
 pub enum MapOutcome {

@@ -86,13 +86,13 @@ fn the_other_branch_of_a_transcritical_crossing_is_entered() {
     }
 }
 
-/// x+ = x + p x - x^3: the arms x = +-sqrt p of a pitchfork, from the stem and from an arm.
+/// x+ = x + p x - x^3: the arms x = +-sqrt p of a pitchfork, from the stem and from an arm. (At p = 1 the arms flip.)
 #[test]
 fn a_pitchfork_is_one_branch_point_from_stem_and_arm() {
     let map = Formula::new(|&[x], &[p]| Some(([x + p * x - x * x * x], [[1.0 + p - 3.0 * x * x]], [[x]])));
     let settings = Settings { branches: true, ..Settings::default() };
     for (p, guess) in [(-0.5, 0.0), (0.25, 0.5)] {
-        let all = run(&map, &[p], (-1.0, 1.0), &[guess], settings.clone());
+        let all = run(&map, &[p], (-0.9, 0.9), &[guess], settings.clone());
         assert_eq!(all.branches.len(), 2, "from {guess}");
         assert_abs_diff_eq!(only(&all.branches[0], Kind::Branch).point.value, 0.0, epsilon = 1e-8);
         for branch in &all.branches {
@@ -103,7 +103,7 @@ fn a_pitchfork_is_one_branch_point_from_stem_and_arm() {
                 assert!(stem || (x * x - point.value).abs() < 1e-9, "{point:?}");
             }
             let (first, last) = (&branch.points[0], branch.points.last().unwrap());
-            let ends = if stem { [-1.0, 1.0] } else { [1.0, 1.0] };
+            let ends = if stem { [-0.9, 0.9] } else { [0.9, 0.9] };
             assert_eq!([first.value, last.value], ends);
         }
     }
@@ -121,7 +121,8 @@ fn the_henon_map_turns_and_flips() {
     let flip = only(branch, Kind::Flip);
     assert_abs_diff_eq!(flip.point.value, 0.3675, epsilon = 1e-10);
     assert_eq!(flip.criticality, Some(Criticality::Supercritical));
-    // The lower part goes to infinity at a = 0, where the map is linear: the branch leaves every bound there.
+    // The lower part goes to infinity at a = 0, where the map is linear.
+    assert_eq!(branch.ends[0], EndReason::Unbounded);
     assert_eq!(branch.points.last().unwrap().value, 0.8);
 }
 
@@ -196,10 +197,10 @@ fn an_isola_closes() {
     assert_abs_diff_eq!(folds[0].abs(), 0.5, epsilon = 1e-12);
 }
 
-/// The map x+ = x/2 + sqrt(1 - p)/2 is not there beyond p = 1.
+/// x+ = x/2 + p/2 has no next section crossing from p = 1 on.
 #[test]
 fn where_the_map_stops_is_located() {
-    let map = Formula::new(|&[x], &[p]| (p < 1.0).then(|| ([0.5 * x + 0.5 * p], [[0.5]], [[0.5]])));
+    let map = Formula::new(|&[x], &[p]| (p < 1.0).then_some(([0.5 * x + 0.5 * p], [[0.5]], [[0.5]])));
     let all = run(&map, &[0.2], (0.0, 3.0), &[0.2], Settings::default());
     let branch = &all.branches[0];
     let EndReason::MapStops(stop) = &branch.ends[1] else { panic!("{:?}", branch.ends) };
@@ -254,6 +255,41 @@ fn two_flips_in_one_step_are_told_apart() {
     assert_eq!(kinds(&all.branches[0])[..2], [Kind::Flip, Kind::Flip]);
     assert_abs_diff_eq!(flips[0], 1.0, epsilon = 1e-12);
     assert_abs_diff_eq!(flips[1], 1.004, epsilon = 1e-12);
+}
+
+/// The logistic map with x in a unit 1e5 times smaller, beside a coordinate 1e3 times smaller.
+#[test]
+fn units_do_not_matter() {
+    let map = Formula::new(|&[x, y], &[r]| {
+        let u = x * 1e-5;
+        let (image, slope, by_r) = (r * u * (1.0 - u), r * (1.0 - 2.0 * u), u * (1.0 - u));
+        let rows = [[slope, 0.0], [1e-8, 0.5]];
+        Some(([image * 1e5, 0.5 * y + 1e-8 * x], rows, [[by_r * 1e5], [0.0]]))
+    });
+    let settings = Settings { doublings: 1, ..Settings::default() };
+    let all = run(&map, &[2.5], (1.5, 3.5), &[0.6e5, 1e-3], settings);
+    let one = run(&logistic(), &[2.5], (1.5, 3.5), &[0.6], Settings { doublings: 1, ..Settings::default() });
+    for (scaled, plain) in all.branches.iter().zip(&one.branches) {
+        assert_eq!(kinds(scaled), kinds(plain));
+        let (scaled, plain) = (&only(scaled, Kind::Flip).point, &only(plain, Kind::Flip).point);
+        assert_abs_diff_eq!(scaled.value, plain.value, epsilon = 1e-9);
+    }
+    assert_eq!(all.branches.len(), 2);
+}
+
+/// x+ = p + m (x - 1) with m = 1/2 below x = 1 and -3/2 above: at p = 1 the branch bends and its multiplier jumps over -1.
+#[test]
+fn a_corner_is_passed_and_is_no_flip() {
+    let map = Formula::new(|&[x], &[p]| {
+        let m = if x < 1.0 { 0.5 } else { -1.5 };
+        Some(([p + m * (x - 1.0)], [[m]], [[1.0]]))
+    });
+    let all = run(&map, &[0.6], (0.2, 1.9), &[0.2], Settings::default());
+    let branch = &all.branches[0];
+    assert_eq!(kinds(branch), []);
+    assert_eq!(branch.ends, [EndReason::RangeEnd(Side::Lower), EndReason::RangeEnd(Side::Upper)]);
+    let change = branch.points.windows(2).find(|pair| pair[0].stable() && !pair[1].stable()).unwrap();
+    assert!(change[0].value <= 1.0 && change[1].value >= 1.0 && change[1].value - change[0].value < 1e-5);
 }
 
 #[test]

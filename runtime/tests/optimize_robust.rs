@@ -145,6 +145,56 @@ fn without_a_common_design_the_constraint_is_named() {
     let found = solve_robust(nominal, &[Uncertain { parameter: 1, lower: 0.0, upper: 1.0 }]).unwrap();
     assert_eq!(found.solution.status, Status::InfeasibleLocally, "{}", found.solution.message);
     assert!(found.solution.message.contains("p0 close to p1"), "{}", found.solution.message);
+    // The best design lies between the machines, half a unit from each end, where 0.01 - 0.25 is left.
+    let in_the_way = found.in_the_way.expect("a reason");
+    assert_eq!(in_the_way.reached.constraint, 0);
+    assert!([0.0, 1.0].contains(&in_the_way.values[0]) && in_the_way.limits.is_empty(), "{in_the_way:?}");
+    assert_relative_eq!(in_the_way.reached.margin, -0.24, epsilon = 1e-6);
+}
+
+/// What limits the constraint in the way is named with it, and what has nothing to do with it is not.
+#[test]
+fn the_constraint_in_the_way_comes_with_what_limits_it() {
+    let map = product();
+    let mut nominal = design(&map, Sense::Maximize, expression(|m, _| m[0]), [0.5, 1.0, 0.0]);
+    nominal.constraints.push(margin("p0 >= 0.6", |_, p| p[0] - 0.6));
+    nominal.constraints.push(margin("p0 <= 1.9", |_, p| -p[0] + 1.9));
+    nominal.constraints.push(spectral(0.9));
+    let found = solve_robust(nominal, &[Uncertain { parameter: 1, lower: 0.5, upper: 2.0 }]).unwrap();
+    assert_eq!(found.solution.status, Status::InfeasibleLocally, "{}", found.solution.message);
+    let in_the_way = found.in_the_way.expect("a reason");
+    assert_eq!((in_the_way.values.as_slice(), in_the_way.limits.as_slice()), (&[2.0][..], &[0][..]), "{in_the_way:?}");
+    assert_eq!(in_the_way.reached.constraint, 2);
+    // p0 = 0.6 at p1 = 2.
+    assert_relative_eq!(in_the_way.reached.spectral_radius, 1.2, epsilon = 1e-6);
+}
+
+/// The nominal optimum is feasible for no other machine; the way to a common design leads through both constraints.
+#[test]
+fn a_common_design_far_from_the_nominal_one_is_found() {
+    let map = difference();
+    let mut nominal = design(&map, Sense::Maximize, expression(|_, p| p[0]), [1.5, 0.0, 0.0]);
+    nominal.constraints.push(margin("p0 <= 2 - 2 p1", |_, p| -p[0] - p[1] * 2.0 + 2.0));
+    nominal.constraints.push(margin("(p0 + p1) p1 <= 0.5", |_, p| -((p[0] + p[1]) * p[1]) + 0.5));
+    let found = robust(nominal, 0.0, 1.0);
+    assert_relative_eq!(found.solution.parameters[0], -0.5, epsilon = 1e-7);
+    assert!(found.in_the_way.is_none());
+}
+
+/// Between the corners lies a range of machines without a gait: the worst case of the corners is not that of all.
+#[test]
+fn machines_without_a_gait_inside_the_box_leave_the_answer_unconfirmed() {
+    let map = Closed::new(1, 3, 1, |z, p| {
+        let gap = (p[1].v - 0.5).abs() < 0.05;
+        (!gap).then(|| (about(z, &[p[0] - p[1]], &[vec![Dual::constant(0.4)]]), vec![z[0]]))
+    });
+    let problem = design(&map, Sense::Minimize, expression(|m, _| m[0] * m[0]), [0.0, 0.3, 0.0]);
+    let found = solve_robust(problem, &[Uncertain { parameter: 1, lower: 0.2, upper: 1.0 }]).unwrap();
+    assert_relative_eq!(found.solution.objective, 0.16, epsilon = 1e-7);
+    assert_eq!(found.solution.status, Status::Unconfirmed, "{}", found.solution.message);
+    assert!(!found.exceptions.is_empty());
+    assert!(found.exceptions.iter().all(|e| (e.values[0] - 0.5).abs() < 0.05), "{:?}", found.exceptions);
+    assert!(found.solution.message.contains("`p1` = 0."), "{}", found.solution.message);
 }
 
 #[test]

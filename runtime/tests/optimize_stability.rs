@@ -145,6 +145,8 @@ fn smallest_spectral_radius_of_a_deadbeat_map_is_zero() {
     assert_eq!(solution.status, Status::Optimal);
     assert_relative_eq!(solution.parameters[0], 0.3, epsilon = 1e-7);
     assert!(solution.spectral_radius < 1e-3);
+    // Its digits say nothing, and that is said.
+    assert!(solution.notes.iter().any(|note| note.contains("deadbeat")), "{:?}", solution.notes);
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! The command line as clap reads it.
 
 use super::continuation::ContinueArgs;
+use super::study::{BasinArgs, MergeArgs, SweepArgs};
+use super::whole::whole;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -52,6 +54,12 @@ pub(crate) enum Command {
     Continue(ContinueArgs),
     /// Find the best gait over parameters
     Optimize(Box<OptimizeArgs>),
+    /// Find the gait, or the optimum, at each of many points
+    Sweep(Box<SweepArgs>),
+    /// Find which starts lead to which gait
+    Basin(Box<BasinArgs>),
+    /// Join the shards of a sweep or basin
+    Merge(MergeArgs),
     /// Write a page with animation, equations, tables and pictures of a model
     Report(super::report::ReportArgs),
     /// Measure every generated derivative against an independent route
@@ -204,22 +212,25 @@ pub(crate) struct OptimizeArgs {
     #[arg(long, value_name = "NAME=LO..HI", allow_hyphen_values = true, conflicts_with = "trade")]
     pub(crate) robust: Vec<String>,
     /// Number of maps that make the gait [default: that of the problem, else 1]
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", value_parser = whole)]
     pub(crate) period: Option<usize>,
     /// Number of starting points
-    #[arg(long, default_value_t = 1, value_name = "N")]
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = whole)]
     pub(crate) starts: usize,
     /// Seed of the further starting points
     #[arg(long, default_value_t = 0, value_name = "N")]
     pub(crate) seed: u64,
     /// Number of starts that run side by side, which does not change the result [default: one a core]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) threads: Option<usize>,
+    /// Most maps of the model that one search may take; a gait of K maps takes K
+    #[arg(long, default_value_t = 100_000, value_name = "N", value_parser = whole)]
+    pub(crate) work: usize,
     /// Two quantities to trade for each other: the best A for every bound on B, e.g. --trade climb_speed:spectral_radius
     #[arg(long, value_name = "A:B", allow_hyphen_values = true)]
     pub(crate) trade: Option<String>,
     /// Number of points of the trade-off curve
-    #[arg(long, default_value_t = 20, value_name = "N", requires = "trade")]
+    #[arg(long, default_value_t = 20, value_name = "N", requires = "trade", value_parser = whole)]
     pub(crate) points: usize,
     /// Write the trade-off curve as CSV
     #[arg(long, value_name = "FILE", requires = "trade")]

@@ -1,7 +1,7 @@
 //! `gaitc compare [MODEL]`: what others have published, beside what is computed.
 
 use super::args::Cli;
-use super::{InputError, Outcome, gait, inputs, output, plots, provenance, show};
+use super::{InputError, Outcome, inputs, output, plots, provenance, show};
 use crate::figures;
 use crate::load::{Loaded, load};
 use crate::models::MODELS;
@@ -127,7 +127,7 @@ fn text(model: &Loaded, comparison: &Comparison<'_>) -> String {
     }
     if comparison.gait().is_none() {
         let outcome = &comparison.outcome;
-        text += &format!("{}: {}\n", gait::status(&outcome.status), outcome.message);
+        text += &format!("{}: {}\n", outcome.status.name(), outcome.message);
     }
     let row = |number: &PublishedNumber| {
         let shown = |value: Option<f64>| value.map_or("-".to_owned(), |value| format_quantity(value, &number.unit));
@@ -163,7 +163,7 @@ fn object(model: &Loaded, comparison: &Comparison<'_>) -> Value {
         "doc": published.doc,
         "source": published.source,
         "set": set,
-        "status": gait::status(&comparison.outcome.status),
+        "status": comparison.outcome.status.name(),
         "message": comparison.outcome.message,
         "warnings": inputs::outside_range(model, &comparison.parameters),
         "numbers": published.numbers.iter().map(number).collect::<Vec<_>>(),

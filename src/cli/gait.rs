@@ -4,7 +4,7 @@ mod pictures;
 
 use super::args::{Cli, GaitArgs};
 use super::guards::{self, Guards};
-use super::{InputError, Outcome, inputs, output, provenance, stops};
+use super::{InputError, Outcome, inputs, output, provenance};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
@@ -63,16 +63,6 @@ fn unmeasured(gait: &Gait) -> bool {
     !gait.map.measures.is_empty() && gait.map.measures.iter().all(|m| m.is_nan())
 }
 
-/// What a status is called in results.
-pub(super) fn status(status: &GaitStatus) -> &'static str {
-    match status {
-        GaitStatus::Converged => "converged",
-        GaitStatus::Open(_) => "not_closed",
-        GaitStatus::NotConverged => "not_converged",
-        GaitStatus::Stopped(stop) => stops::name(stop.reason),
-    }
-}
-
 struct Report<'a> {
     loaded: &'a Loaded,
     parameters: &'a [f64],
@@ -97,7 +87,7 @@ impl Report<'_> {
         let names = spec.parameters.iter().map(|p| p.name.as_str());
         let mut all = json!({
             "model": spec.name,
-            "status": status(&self.outcome.status),
+            "status": self.outcome.status.name(),
             "message": self.outcome.message,
             "parameters": named(names, self.parameters),
             "residual": self.outcome.residual,
@@ -175,7 +165,7 @@ impl Report<'_> {
 
     fn text(&self) -> String {
         let spec = &self.loaded.spec;
-        let mut text = format!("{} · gait\n{}: {}\n", spec.name, status(&self.outcome.status), self.outcome.message);
+        let mut text = format!("{} · gait\n{}: {}\n", spec.name, self.outcome.status.name(), self.outcome.message);
         for warning in self.all_warnings() {
             text += &format!("warning: {warning}\n");
         }

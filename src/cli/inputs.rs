@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use gaitc_compiler::front::LONGEST_PERIOD;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
 use gaitc_compiler::front::format_quantity;
-use gaitc_compiler::ir::{Parameter, Problem, Vary};
+use gaitc_compiler::ir::{Parameter, Problem};
 use gaitc_runtime::return_map::{Accuracy, Method};
 
 /// What `--method` takes.
@@ -49,22 +49,24 @@ pub(super) fn outside_range(loaded: &Loaded, values: &[f64]) -> Vec<String> {
     loaded.spec.parameters.iter().zip(values).filter_map(outside).collect()
 }
 
-/// One sentence for each range to vary a parameter over that leaves the range that the spec gives for it: most often a
+/// One sentence for each range of a problem that leaves the range that the spec gives for its parameter: most often a
 /// forgotten unit.
 pub(super) fn varies_outside(loaded: &Loaded, problem: &Problem) -> Vec<String> {
-    let outside = |vary: &Vary| {
-        let p = loaded.spec.parameters.get(vary.parameter)?;
+    let outside = |(parameter, from, to, verb): (usize, f64, f64, &str)| {
+        let p = loaded.spec.parameters.get(parameter)?;
         let (lower, upper) = p.range.filter(|(lower, upper)| {
             let slack = 1e-9 * (upper - lower);
-            vary.lower < lower - slack || vary.upper > upper + slack
+            from < lower - slack || to > upper + slack
         })?;
-        let [from, to, lower, upper] = [vary.lower, vary.upper, lower, upper].map(|v| format_quantity(v, &p.unit));
+        let [from, to, lower, upper] = [from, to, lower, upper].map(|v| format_quantity(v, &p.unit));
         Some(format!(
-            "`{}` varies from {from} to {to}, beyond the range that the spec gives for it, {lower} to {upper}",
+            "`{}` {verb} from {from} to {to}, beyond the range that the spec gives for it, {lower} to {upper}",
             p.name
         ))
     };
-    problem.vary.iter().filter_map(outside).collect()
+    let varied = problem.vary.iter().map(|v| (v.parameter, v.lower, v.upper, "varies"));
+    let uncertain = problem.robust.iter().map(|u| (u.parameter, u.lower, u.upper, "is uncertain"));
+    varied.chain(uncertain).filter_map(outside).collect()
 }
 
 /// The section's start with every `--guess` applied.

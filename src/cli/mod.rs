@@ -24,7 +24,9 @@ mod schema;
 mod show;
 mod simulate;
 mod stops;
+mod study;
 mod verify;
+mod whole;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, FromArgMatches};
@@ -126,5 +128,8 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
         Command::Compare(args) => compare::run(cli, args),
         Command::Report(args) => report::run(cli, args),
         Command::Verify(args) => verify::run(cli, args),
+        Command::Sweep(args) => study::sweep(cli, args),
+        Command::Basin(args) => study::basin(cli, args),
+        Command::Merge(args) => study::merge(cli, args),
     }
 }

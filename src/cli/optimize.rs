@@ -12,12 +12,15 @@ mod verdict;
 use super::args::{Cli, OptimizeArgs};
 use super::{INTERRUPTED, InputError, Outcome, inputs, provenance};
 use crate::load::load;
-use crate::problem::{Start, assemble};
+use crate::problem::{Start, assemble, uncertain};
 use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve, solve_robust};
 use report::Report;
+pub(super) use report::status;
 
 /// More starts than this tell nothing new and would run for days.
 const MOST_STARTS: usize = 100_000;
+/// More maps than this would run for weeks.
+const MOST_WORK: usize = 1_000_000_000;
 /// More threads than this only wait for each other.
 const MOST_THREADS: usize = 1024;
 
@@ -28,10 +31,13 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     if let Some(threads) = args.threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
         return Err(InputError(format!("--threads {threads}: give a number from 1 to {MOST_THREADS}")));
     }
+    if !(1..=MOST_WORK).contains(&args.work) {
+        return Err(InputError(format!("--work {}: give a number from 1 to {MOST_WORK}", args.work)));
+    }
     let loaded = load(&args.model.model, cli.specs.as_deref())?;
     let (spec, problem) = request::problem(&loaded, args)?;
     let parameters = inputs::parameters(&loaded, &args.model)?;
-    let uncertain = robust::uncertain(&loaded, args, &problem)?;
+    let uncertain = uncertain(&problem);
     let mut warnings = inputs::outside_range(&loaded, &parameters);
     warnings.extend(inputs::varies_outside(&loaded, &problem));
     let loose = robust::loose(&problem, &uncertain);
@@ -42,12 +48,14 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
         starts: args.starts,
         seed: args.seed,
         threads: args.threads.unwrap_or(0),
+        work: args.work,
         interrupt: on_interrupt(),
         ..Settings::default()
     };
     let provenance = provenance::of(&cli.run, &loaded, &parameters);
     let start = Start { parameters, section: inputs::guess(&loaded, &args.search)?, settings };
     if args.trade.is_some() {
+        robust::no_trade(&problem)?;
         return trade::run(&loaded, (spec, problem), start, (args, cli.json), (&warnings, &provenance));
     }
     let assembled = assemble(&loaded, &spec, &problem, start);
@@ -59,6 +67,10 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
     };
     solution.notes.splice(0..0, warnings);
     if let Some(message) = conflict::message(&spec, &problem, &solution) {
+        let nominal = if robust.is_some() { "already without uncertainty: " } else { "" };
+        solution.message = format!("{nominal}{message}");
+    }
+    if let Some(message) = robust.as_ref().and_then(|found| robust::message(&spec, &problem, found)) {
         solution.message = message;
     }
     let robust = robust.as_ref().map(|found| robust::Shown { uncertain: &uncertain, found });

@@ -40,7 +40,7 @@ pub(crate) struct SimulateArgs {
     #[arg(long, value_name = "NAME", requires = "state")]
     mode: Option<String>,
     /// Time since the last transition at the start [default: 0 s]
-    #[arg(long, value_name = "QUANTITY", requires = "state")]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true, requires = "state")]
     tau: Option<String>,
     /// Memory at the start, e.g. --memory n=1 [default: as in the spec]
     #[arg(long, value_name = "NAME=INTEGER", allow_hyphen_values = true)]
@@ -49,7 +49,7 @@ pub(crate) struct SimulateArgs {
     #[arg(long)]
     gait: bool,
     /// Number of steps (crossings of the section) to go [default: 10]
-    #[arg(long, value_name = "N", conflicts_with = "time")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, conflicts_with = "time")]
     steps: Option<usize>,
     /// Time to go, e.g. --time 2s
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
@@ -58,7 +58,7 @@ pub(crate) struct SimulateArgs {
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true, conflicts_with = "samples")]
     interval: Option<String>,
     /// Number of equal times at which to sample the run [default: 200 a step, 1000 with --time]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     samples: Option<usize>,
     /// What to observe on the way: a name of [let] or an expression, e.g. --show 'm*g' [default: all names of [let]]
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]

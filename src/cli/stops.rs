@@ -1,25 +1,13 @@
-//! How commands call the ways in which a run can stop.
+//! What commands say of the ways in which a run can stop.
 
 use gaitc_runtime::return_map::StopReason;
-
-/// The name in JSON.
-pub(super) fn name(reason: StopReason) -> &'static str {
-    match reason {
-        StopReason::NoEvent => "no_event",
-        StopReason::StepLimit => "step_limit",
-        StopReason::StepTooSmall => "step_too_small",
-        StopReason::NotFinite => "not_finite",
-        StopReason::Inconsistent => "inconsistent",
-        StopReason::Zeno => "zeno",
-    }
-}
 
 /// What happened, and what to do.
 pub(super) fn explanation(reason: StopReason) -> (&'static str, &'static str) {
     match reason {
         StopReason::NoEvent => (
             "no step ended within the time limit of 100 s: it fell, or came to rest",
-            "see what it does (--time 2s --plot FILE.svg), start elsewhere (--from, --gait), or set other parameters (--set)",
+            "start elsewhere (--from, --gait), or set other parameters (--set)",
         ),
         StopReason::StepLimit => (
             "the integration needs more steps than are allowed",

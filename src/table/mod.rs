@@ -73,6 +73,19 @@ impl Table {
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
+
+    /// Puts the rows of a table with the same columns behind its own.
+    pub fn append(&mut self, rows: Self) {
+        for (column, rows) in self.columns.iter_mut().zip(rows.columns) {
+            match (&mut column.values, rows.values) {
+                (Values::Number(values), Values::Number(rows)) => values.extend(rows),
+                (Values::Integer(values), Values::Integer(rows)) => values.extend(rows),
+                (Values::Text(values), Values::Text(rows)) => values.extend(rows),
+                // Other columns are not the same ones; what then differ are the lengths, which is seen when the table is written.
+                _ => {}
+            }
+        }
+    }
 }
 
 /// As what a table is written.

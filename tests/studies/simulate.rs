@@ -104,21 +104,44 @@ fn rates_are_finite_at_dead_centres() {
     }
 }
 
+/// This one swings too far in its second step to get back to the angle where the next one would begin.
+const FALLS: [&str; 4] = ["simulate", "angle_switched", "--from", "p_theta=3 m/s"];
+
 #[test]
 fn a_run_that_stops_says_so() {
-    let (code, all) = json(&["simulate", "rimless_wheel", "--from", "w=0.1 rad/s", "--samples", "20"]);
+    let (code, all) = json(&[&FALLS[..], &["--samples", "20"]].concat());
     assert_eq!((code, all["status"].as_str()), (2, Some("no_event")), "{:#}", all["message"]);
-    assert_eq!(all["stopped"]["reason"], "no_event");
+    assert_eq!((&all["stopped"]["reason"], all["events"].as_array().unwrap().len()), (&all["status"], 2));
     assert_eq!(number(&all, "/stopped/time"), number(&all, "/duration"));
+    assert_abs_diff_eq!(number(&all, "/duration"), number(&all, "/events/1/time") + 100.0, epsilon = 1e-9);
     assert!(list(&all, "/samples/t").len() >= 20);
-    let (code, out, _) = text(&["simulate", "rimless_wheel", "--from", "w=0.1 rad/s", "--samples", "20"]);
-    assert!(code == 2 && out.contains("after 0 of 10 steps") && out.contains("help: "), "{out}");
+    let (code, out, _) = text(&[&FALLS[..], &["--samples", "20"]].concat());
+    assert!(code == 2 && out.contains("after 2 of 10 steps") && out.contains("help: see it fall: --time 4s"), "{out}");
     // A time that is asked for ends the same run as it should.
-    let (code, all) = json(&["simulate", "rimless_wheel", "--from", "w=0.1 rad/s", "--time", "500ms"]);
-    assert_eq!((code, number(&all, "/duration"), &all["stopped"]), (0, 0.5, &Value::Null));
-    // No gait, nothing to follow.
-    let (code, all) = json(&["simulate", "rimless_wheel", "--gait", "--guess", "w=0.1 rad/s"]);
-    assert_eq!((code, all["status"].as_str()), (2, Some("no_gait")));
+    let (code, seen) = json(&[&FALLS[..], &["--time", "4s"]].concat());
+    assert_eq!((code, number(&seen, "/duration"), &seen["stopped"]), (0, 4.0, &Value::Null));
+    assert_eq!(seen["events"], all["events"]);
+    // The ball comes to rest after 2 v/g/(1 - e).
+    let rest =
+        ["simulate", "bouncing_ball", "--set", "kick=0 m/s", "--set", "e=0.8", "--from", "v=3 m/s", "--steps", "1000"];
+    let (code, all) = json(&rest);
+    assert_eq!((code, all["status"].as_str()), (2, Some("zeno")));
+    assert_abs_diff_eq!(number(&all, "/stopped/time"), 2.0 * 3.0 / 9.81 / 0.2, epsilon = 1e-7);
+}
+
+/// No gait, nothing to follow.
+#[test]
+fn a_gait_that_is_not_there_is_said() {
+    let run = ["simulate", "angle_switched", "--gait", "--guess", "p_theta=-50 m/s"];
+    let (code, all) = json(&run);
+    assert_eq!(
+        (code, all["status"].as_str(), &all["samples"]),
+        (2, Some("no_gait"), &Value::Null),
+        "{:#}",
+        all["message"]
+    );
+    let (code, out, _) = text(&run);
+    assert!(code == 2 && out.contains("help: start elsewhere"), "{out}");
 }
 
 #[test]

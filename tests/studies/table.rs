@@ -13,7 +13,7 @@ fn provenance() -> Provenance {
         command = "sweep"
         over = ["psi=1..45 deg:3"]
     };
-    Provenance { model: "a_model".to_owned(), fingerprint: "f00d".to_owned(), run }
+    Provenance { model: "a_model".to_owned(), fingerprint: "f00d".to_owned(), spec: "5bec".to_owned(), run }
 }
 
 const NUMBERS: [f64; 6] = [0.1, -0.0, f64::NAN, 5e-324, -1.797_693_134_862_315_7e308, 1e22];

@@ -78,6 +78,7 @@ codes! {
     Unreachable "W0003" "a mode that no run reaches";
     NoInvolution "W0004" "a symmetry that is not its own inverse";
     NotInvariant "W0005" "the model is not invariant under its symmetry";
+    HeldMoves "W0006" "a held point moves";
 }
 
 impl std::fmt::Display for Code {

@@ -120,6 +120,11 @@ pub fn parse_range(text: &str, expected: Dimension) -> Result<(f64, f64), FlagEr
         let span = flag.text.span;
         return flag.error(Code::Syntax, "this is not a range", span, "write `LO..HI`, as in `0..200 N/m`");
     };
+    if let Some(rest) = text.get(dots + 2..).filter(|rest| rest.starts_with('.')) {
+        let written = format!("{}..{}", text.get(..dots).unwrap_or(""), rest.trim_start_matches('.'));
+        let span = flag.text.span;
+        return flag.error(Code::Syntax, "a range has two dots", span, &format!("write `{written}`"));
+    }
     let (lower, upper) = (flag.text.part(0..dots), flag.text.part(dots + 2..text.len()));
     let span = flag.text.span;
     let mut quantities = flag.quantities();
@@ -130,6 +135,73 @@ pub fn parse_range(text: &str, expected: Dimension) -> Result<(f64, f64), FlagEr
         quantities.ordered(low.value, high.value, span, "the range")
     });
     flag.finish(range)
+}
+
+/// What a flag says of the values that a quantity takes, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// A range, and how many values it is cut into where that is said: `0..200 N/m:11`.
+    Range {
+        /// Lower bound.
+        lower: f64,
+        /// Upper bound, not below the lower one.
+        upper: f64,
+        /// How many values.
+        count: Option<u64>,
+    },
+    /// Single values, at least one: `1, 2, 5 deg`.
+    List(Vec<f64>),
+}
+
+/// Reads the values that a quantity takes: a range such as `0..200 N/m:11` (11 values; the count may be missing), or a list such
+/// as `1, 2, 5 deg`, where the last unit is that of all values that have none.
+///
+/// # Errors
+/// When it is neither, has another dimension than `expected`, or the count is no number of values.
+pub fn parse_values(text: &str, expected: Dimension) -> Result<Values, FlagError> {
+    let mut flag = Flag::new(text);
+    if text.contains("..") {
+        let (range, count) = text.rsplit_once(':').map_or((text, None), |(range, count)| (range, Some(count)));
+        let count = match count.map(|count| (count, count.trim().parse::<u64>())) {
+            None => None,
+            Some((_, Ok(count))) if count > 0 => Some(count),
+            Some((count, _)) => {
+                let span = flag.text.at(text.len() - count.len()..text.len());
+                let help = "write how many values, as in `0..200 N/m:11`";
+                return flag.error(Code::Syntax, "this is no number of values", span, help);
+            }
+        };
+        let (lower, upper) = parse_range(range, expected)?;
+        return Ok(Values::Range { lower, upper, count });
+    }
+    let mut parts: Vec<Text> = Vec::new();
+    let mut first = 0;
+    for end in text.match_indices(',').map(|(at, _)| at).chain([text.len()]) {
+        // A comma in brackets is one of a function: min(1, 2).
+        let piece = text.get(first..end).unwrap_or_default();
+        if piece.matches('(').count() <= piece.matches(')').count() {
+            parts.push(flag.text.part(first..end));
+            first = end + 1;
+        }
+    }
+    if first <= text.len() {
+        parts.push(flag.text.part(first..text.len()));
+    }
+    let Some((last, others)) = parts.split_last() else { return flag.finish(None) };
+    let mut quantities = flag.quantities();
+    let values = (|| {
+        let end = quantities.any(last)?;
+        quantities.check(&end, last.span, expected, "the last value")?;
+        let mut values = Vec::with_capacity(parts.len());
+        for value in others {
+            let (quantity, _) = quantities.sharing_unit(value, last)?;
+            quantities.check(&quantity, value.span, expected, "this value")?;
+            values.push(quantity.value);
+        }
+        values.push(end.value);
+        Some(Values::List(values))
+    })();
+    flag.finish(values)
 }
 
 /// Splits `NAME=REST`.

@@ -60,5 +60,8 @@ pub(crate) const DRAWN_POINT: &[&str] = &["at", "modes", "held", "doc"];
 pub(crate) const PUBLISHED: &[&str] = &["doc", "source", "set", "start", "measures", "section"];
 /// The most maps that one gait can be made of: longer periods are not gaits that anybody could tell from chaos.
 pub const LONGEST_PERIOD: usize = 1000;
+/// The most parameters that a problem can be robust over: more have more scenarios than anybody would wait for.
+pub const MOST_ROBUST: usize = 12;
 /// Of `[problems.NAME]`.
-pub(crate) const PROBLEM: &[&str] = &["doc", "default", "maximize", "minimize", "vary", "subject_to", "period"];
+pub(crate) const PROBLEM: &[&str] =
+    &["doc", "default", "maximize", "minimize", "vary", "robust", "subject_to", "period"];

@@ -30,7 +30,7 @@ use crate::ir::canonical::hex_digest;
 use crate::source::{FileId, SourceMap, Span};
 pub use check::{Checked, check_file, may_be_spec};
 pub use format::{format_exact, format_number, format_quantity, format_si, in_unit};
-pub use keys::LONGEST_PERIOD;
+pub use keys::{LONGEST_PERIOD, MOST_ROBUST};
 pub use names::{is_module_name, suggest};
 pub use observe::Observations;
 pub use parts::Library;

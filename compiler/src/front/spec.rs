@@ -171,6 +171,8 @@ pub(crate) struct Problem {
     pub(crate) default: Option<Span>,
     pub(crate) objective: Option<(Sense, Equation)>,
     pub(crate) vary: Vec<Named<Interval>>,
+    /// Parameters that are only known to lie in ranges.
+    pub(crate) robust: Vec<Named<Interval>>,
     pub(crate) subject_to: Vec<Equation>,
     /// How many maps make the gait.
     pub(crate) period: usize,

@@ -271,6 +271,8 @@ pub struct Problem {
     pub objective_dimension: Dimension,
     /// Parameters to vary with their bounds in SI units.
     pub vary: Vec<Vary>,
+    /// Parameters that are only known to lie in ranges: the best worst case over these is asked for. None of them varies.
+    pub robust: Vec<Uncertain>,
     /// All must hold.
     pub constraints: Vec<Constraint>,
     /// How many maps make the gait.
@@ -285,6 +287,17 @@ pub struct Vary {
     /// Lower bound, SI units.
     pub lower: f64,
     /// Upper bound, SI units.
+    pub upper: f64,
+}
+
+/// A parameter that is only known to lie in a range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertain {
+    /// Index of the parameter.
+    pub parameter: usize,
+    /// Lower end, SI units.
+    pub lower: f64,
+    /// Upper end, SI units.
     pub upper: f64,
 }
 

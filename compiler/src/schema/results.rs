@@ -2,7 +2,7 @@
 
 use super::forms::{Keys, any_name, described, interval, named, new_name, scalar, strings, text};
 use super::quantities::unit;
-use crate::front::keys::{self, LONGEST_PERIOD};
+use crate::front::keys::{self, LONGEST_PERIOD, MOST_ROBUST};
 use serde_json::{Value, json};
 
 pub(super) fn measures() -> Value {
@@ -27,6 +27,13 @@ pub(super) fn problems() -> Value {
         "Parameters that the optimizer may change, each with its bounds.",
     );
     vary["minProperties"] = 1.into();
+    let mut robust = named(
+        interval("Lower and upper end, as in `[\"2.4 kg\", \"2.8 kg\"]`."),
+        any_name(),
+        "Parameters that are only known to lie in ranges: the best worst case over these is looked for.",
+    );
+    robust["minProperties"] = 1.into();
+    robust["maxProperties"] = MOST_ROBUST.into();
     let key = |key: &str| match key {
         "doc" => Some(text("What is looked for.")),
         "default" => Some(described(
@@ -38,6 +45,7 @@ pub(super) fn problems() -> Value {
             Some(scalar("Expression of measures and parameters, or `spectral_radius`, to make as small as possible."))
         }
         "vary" => Some(vary.clone()),
+        "robust" => Some(robust.clone()),
         "subject_to" => Some(strings(
             text("Constraint."),
             "Constraints by `<=` or `>=`, as in `[\"spectral_radius <= 0.95\", \"peak_force <= 150 N\"]`.",

@@ -310,6 +310,7 @@ impl Collector<'_> {
             },
             objective: self.optional(objective.map(|(_, equation)| equation)),
             vary: item.value.vary.iter().map(|item| self.vary(item)).collect(),
+            robust: item.value.robust.iter().map(|item| self.vary(item)).collect(),
             subject_to: item.value.subject_to.iter().map(|equation| self.formula(equation)).collect(),
             period: item.value.period,
         }

@@ -73,21 +73,27 @@ impl Drawing {
         body
     }
 
+    /// A paragraph on each point of which there is something to say.
+    pub(super) fn said(&self) -> impl Iterator<Item = String> {
+        let said = self.points.iter().map(|point| (&point.name, point.said()));
+        said.filter(|(_, said)| !said.is_empty()).map(|(name, said)| format!("{name}: {said}"))
+    }
+
     /// Rows of a display.
     pub(super) fn latex(&self) -> Vec<String> {
-        let pair = |[x, y]: &[Formula; 2]| format!("\\left({},\\; {}\\right)", x.latex, y.latex);
+        let pair = |[x, y]: &[Formula; 2]| format!("\\left({},\\, {}\\right)", x.latex, y.latex);
         let mut rows = Vec::new();
         rows.extend(self.velocity.iter().map(|v| format!("\\text{{velocity of the body}} & = {}", pair(v))));
-        rows.extend(self.points.iter().map(|point| {
-            let said = point.said();
-            let said = if said.is_empty() { String::new() } else { format!("\\quad \\text{{({})}}", latex(&said)) };
-            format!("\\text{{{}, from the body}} & = {}{said}", latex(&point.name), pair(&point.at))
-        }));
+        rows.extend(
+            self.points
+                .iter()
+                .map(|point| format!("\\text{{{}, from the body}} & = {}", latex(&point.name), pair(&point.at))),
+        );
         let line = |[a, b]: &[String; 2]| format!("\\text{{line}} & \\text{{ from {} to {}}}", latex(a), latex(b));
         rows.extend(self.links.iter().map(line));
         rows.extend(self.panels.iter().map(|panel| {
             let curves: Vec<&str> = panel.iter().map(|curve| curve.latex.as_str()).collect();
-            format!("\\text{{panel}} & \\quad {}", curves.join(",\\; "))
+            format!("\\text{{panel}} & \\quad {}", curves.join(",\\, "))
         }));
         rows
     }

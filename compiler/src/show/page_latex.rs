@@ -1,9 +1,10 @@
 //! A model as a LaTeX document that compiles by itself.
 
+use super::drawn::Drawing;
 use super::escape::latex;
 use super::lines::{aligned, row};
 use super::literal::{quantity_latex, unit_latex};
-use super::sheet::{Assignment, Problem, Sheet, Surface, Transition};
+use super::sheet::{Assignment, Problem, Sheet, Surface, Transition, Vary};
 
 /// Packages, and what to do with characters that pdfTeX does not know.
 const PREAMBLE: &str = "\\documentclass{article}
@@ -49,12 +50,16 @@ pub(super) fn page(sheet: &Sheet) -> String {
         let title = format!("Problem \\texttt{{{}}}{default}", latex(&problem.name));
         section(&mut page, &title, &self::problem(problem));
     }
-    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), |drawing| display(&drawing.latex())));
+    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), drawing));
     for published in &sheet.published {
         let body = paragraph(&published.source()) + &display(&published.latex());
         section(&mut page, &format!("Published: {}", latex(&published.name)), &body);
     }
     page + "\\end{document}\n"
+}
+
+fn drawing(drawing: &Drawing) -> String {
+    display(&drawing.latex()) + &drawing.said().map(|said| paragraph(&said)).collect::<String>()
 }
 
 fn section(page: &mut String, title: &str, body: &str) {
@@ -183,10 +188,12 @@ fn measures(sheet: &Sheet) -> String {
 fn problem(problem: &Problem) -> String {
     let mut body = paragraph(&problem.doc);
     let mut lines = vec![format!("\\text{{{}}} \\quad & {}", problem.sense, problem.objective.latex)];
-    lines.extend(problem.vary.iter().map(|vary| {
+    let range = |what: &str, vary: &Vary| {
         let (lower, upper) = (quantity_latex(&vary.shown.0), quantity_latex(&vary.shown.1));
-        format!("\\text{{over}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
-    }));
+        format!("\\text{{{what}}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
+    };
+    lines.extend(problem.vary.iter().map(|vary| range("over", vary)));
+    lines.extend(problem.robust.iter().map(|uncertain| range("for every", uncertain)));
     lines.extend(problem.subject_to.iter().map(|c| format!("\\text{{subject to}} \\quad & {}", c.latex)));
     if problem.period > 1 {
         lines.push(format!("\\text{{for a gait of {} maps}} \\quad &", problem.period));

@@ -1,10 +1,11 @@
 //! A model in Markdown: tables, and formulas between `$$`.
 
+use super::drawn::Drawing;
 use super::escape::markdown;
 use super::lines::{aligned, row};
 use super::literal::quantity_latex;
 use super::page_latex::rows;
-use super::sheet::{Problem, Sheet, Surface, Transition};
+use super::sheet::{Problem, Sheet, Surface, Transition, Vary};
 
 /// The whole page.
 pub(super) fn page(sheet: &Sheet) -> String {
@@ -34,12 +35,16 @@ pub(super) fn page(sheet: &Sheet) -> String {
         let default = if problem.default { " (default)" } else { "" };
         section(&mut page, &format!("Problem `{}`{default}", problem.name), &self::problem(problem));
     }
-    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), |drawing| display(&drawing.latex())));
+    section(&mut page, "Drawing", &sheet.drawing.as_ref().map_or(String::new(), drawing));
     for published in &sheet.published {
         let body = paragraph(&published.source()) + &display(&published.latex());
         section(&mut page, &format!("Published: {}", markdown(&published.name)), &body);
     }
     page
+}
+
+fn drawing(drawing: &Drawing) -> String {
+    display(&drawing.latex()) + &drawing.said().map(|said| paragraph(&said)).collect::<String>()
 }
 
 fn section(page: &mut String, title: &str, body: &str) {
@@ -157,10 +162,12 @@ fn measures(sheet: &Sheet) -> String {
 
 fn problem(problem: &Problem) -> String {
     let mut lines = vec![format!("\\text{{{}}} \\quad & {}", problem.sense, problem.objective.latex)];
-    lines.extend(problem.vary.iter().map(|vary| {
+    let range = |what: &str, vary: &Vary| {
         let (lower, upper) = (quantity_latex(&vary.shown.0), quantity_latex(&vary.shown.1));
-        format!("\\text{{over}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
-    }));
+        format!("\\text{{{what}}} \\quad & {lower} \\le {} \\le {upper}", vary.name.latex)
+    };
+    lines.extend(problem.vary.iter().map(|vary| range("over", vary)));
+    lines.extend(problem.robust.iter().map(|uncertain| range("for every", uncertain)));
     lines.extend(problem.subject_to.iter().map(|c| format!("\\text{{subject to}} \\quad & {}", c.latex)));
     if problem.period > 1 {
         lines.push(format!("\\text{{for a gait of {} maps}} \\quad &", problem.period));

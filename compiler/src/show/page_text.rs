@@ -174,6 +174,10 @@ fn problem(problem: &Problem) -> String {
     for vary in &problem.vary {
         body += &format!("  over {} = {} .. {}\n", vary.name.text, vary.shown.0, vary.shown.1);
     }
+    for uncertain in &problem.robust {
+        let (lower, upper) = &uncertain.shown;
+        body += &format!("  for every {} = {lower} .. {upper}\n", uncertain.name.text);
+    }
     for constraint in &problem.subject_to {
         body += &formula("  subject to ", &constraint.text, 13);
     }

@@ -202,12 +202,14 @@ pub(super) struct Problem {
     pub(super) sense: &'static str,
     pub(super) objective: Formula,
     pub(super) vary: Vec<Vary>,
+    /// Parameters that are only known to lie in ranges.
+    pub(super) robust: Vec<Vary>,
     pub(super) subject_to: Vec<Formula>,
     /// How many maps make the gait.
     pub(super) period: usize,
 }
 
-/// A parameter to vary.
+/// A parameter with a range to vary it over, or in which it is known to lie.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Vary {
     #[serde(flatten)]

@@ -58,7 +58,7 @@ pub(super) fn attempt(problem: &Problem<'_>, first: &Start, number: usize) -> Re
 
 /// Whether an end may be due to the start alone.
 pub(super) fn goes_on(status: Status) -> bool {
-    !matches!(status, Status::Optimal | Status::Unbounded | Status::Interrupted)
+    !matches!(status, Status::Optimal | Status::Unbounded | Status::Interrupted | Status::WorkLimit)
 }
 
 /// The search from one gait, judged.
@@ -94,7 +94,11 @@ pub(super) fn order(problem: &Problem<'_>, a: &Verdict, b: &Verdict) -> Ordering
         Status::Optimal => 0,
         Status::Unbounded => 1,
         Status::Unconfirmed | Status::Saddle => 2,
-        Status::Interrupted | Status::IterationLimit | Status::Stalled | Status::SubproblemFailed => 3,
+        Status::Interrupted
+        | Status::IterationLimit
+        | Status::WorkLimit
+        | Status::Stalled
+        | Status::SubproblemFailed => 3,
         Status::Infeasible | Status::InfeasibleLocally => 4,
         Status::Undefined => 5,
         Status::NoGait => 6,

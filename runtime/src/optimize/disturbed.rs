@@ -12,8 +12,12 @@ use super::stepper::Stepper;
 use crate::return_map::Accuracy;
 use nalgebra::{DMatrix, DVector};
 
-/// Maps in sequence.
+/// Gaits in sequence, ...
 const MAPS: usize = 1000;
+/// ... fewer where they are made of many maps: no more maps than this, ...
+const MOST_STEPS: usize = 20_000;
+/// ... but so many in any case.
+const FEWEST: usize = 100;
 /// Largest predicted standard deviation of a coordinate relative to its size: small enough for the linearisation.
 const SMALL: f64 = 1e-5;
 /// Where the linear prediction fails, the disturbance is made so much smaller, as often as this: what is due to the map's
@@ -77,7 +81,7 @@ pub(super) fn disturbed(problem: &Problem<'_>, linear: &Linear<'_>) -> Result<Di
             let at = |reductions: i32| {
                 let level = largest * SMALLER.powi(reductions);
                 let mut stepper = linear.stepper(problem, level)?;
-                stays(linear, &covariance, level, (&mut stepper, problem.settings.seed))
+                stays(linear, &covariance, level, (&mut stepper, problem.settings.seed, maps(problem)))
             };
             (1..=REDUCTIONS).fold(at(0), |found, reductions| found.or_else(|_| at(reductions)))
         }
@@ -85,11 +89,16 @@ pub(super) fn disturbed(problem: &Problem<'_>, linear: &Linear<'_>) -> Result<Di
     }
 }
 
+/// How many gaits in sequence.
+fn maps(problem: &Problem<'_>) -> usize {
+    (MOST_STEPS / problem.period.max(1)).clamp(FEWEST, MAPS)
+}
+
 fn stays(
     linear: &Linear<'_>,
     covariance: &DMatrix<f64>,
     level: f64,
-    (stepper, seed): (&mut Stepper<'_>, u64),
+    (stepper, seed, maps): (&mut Stepper<'_>, u64, usize),
 ) -> Result<Disturbed, String> {
     let d = linear.dimension();
     let covariance = covariance * (level * level);
@@ -100,7 +109,7 @@ fn stays(
     let mut deviation = root(&covariance) * draw();
     let mut sums = DMatrix::<f64>::zeros(d, d);
     let mut nonlinear = 0.0_f64;
-    for map in 1..=MAPS {
+    for map in 1..=maps {
         let start = &deviation + draw() * level;
         deviation = stepper.deviation(&start, linear.sizes)?;
         // Written so that what is no number counts as far.
@@ -118,9 +127,9 @@ fn stays(
             "disturbed maps differ from what the Jacobian predicts by {nonlinear:.1e} of the deviations, where {NONLINEAR:.0e} is allowed"
         ));
     }
-    let compared = compare(linear.jacobian, &covariance, &(sums / MAPS as f64), level)?;
+    let compared = compare(linear.jacobian, &covariance, &(sums / maps as f64), (level, maps))?;
     let memory = if linear.spectral_radius > 0.0 { -1.0 / linear.spectral_radius.ln() } else { 0.0 };
-    Ok(Disturbed::Stays { maps: MAPS, level, nonlinear, spread: compared.spread, sampling: compared.sampling, memory })
+    Ok(Disturbed::Stays { maps, level, nonlinear, spread: compared.spread, sampling: compared.sampling, memory })
 }
 
 /// How the spread of the deviations compares with the prediction.
@@ -136,7 +145,7 @@ fn compare(
     jacobian: &DMatrix<f64>,
     predicted: &DMatrix<f64>,
     sample: &DMatrix<f64>,
-    level: f64,
+    (level, maps): (f64, usize),
 ) -> Result<Compared, String> {
     let d = predicted.nrows();
     let eigen = predicted.clone().symmetric_eigen();
@@ -145,7 +154,7 @@ fn compare(
     let thin = (THIN * level).powi(2);
     let mut found = Compared { spread: 0.0, sampling: 0.0 };
     for (k, direction) in coordinates.chain(axes).enumerate() {
-        let (variance, relative) = along(jacobian, predicted, &direction, MAPS);
+        let (variance, relative) = along(jacobian, predicted, &direction, maps);
         if variance.is_nan() || variance <= thin {
             continue;
         }
@@ -219,14 +228,14 @@ mod tests {
         let right = stationary(&jacobian, &DMatrix::identity(2, 2)).expect("stable");
         for seed in 0..20 {
             let sample = sampled(&jacobian, seed);
-            let found = compare(&jacobian, &right, &sample, 1.0).expect("as predicted");
+            let found = compare(&jacobian, &right, &sample, (1.0, MAPS)).expect("as predicted");
             assert!(found.sampling > 0.02 && found.sampling < 0.08 && found.spread < 5.0 * found.sampling);
-            assert!(compare(&jacobian, &(&right * 1.6), &sample, 1.0).is_err());
-            assert!(compare(&jacobian, &(&right * 0.6), &sample, 1.0).is_err());
+            assert!(compare(&jacobian, &(&right * 1.6), &sample, (1.0, MAPS)).is_err());
+            assert!(compare(&jacobian, &(&right * 0.6), &sample, (1.0, MAPS)).is_err());
             // Right variances of the coordinates, wrong covariance of the two.
             let mut turned = right.clone();
             (turned[(0, 1)], turned[(1, 0)]) = (-0.7 * right[(0, 0)], -0.7 * right[(0, 0)]);
-            assert!(compare(&jacobian, &turned, &sample, 1.0).is_err());
+            assert!(compare(&jacobian, &turned, &sample, (1.0, MAPS)).is_err());
         }
     }
 
@@ -234,7 +243,8 @@ mod tests {
     fn what_a_map_leaves_nothing_of_is_not_measured() {
         let jacobian = dmatrix![1e-9, 0.0; 0.0, 1e-9];
         let tiny = stationary(&jacobian, &DMatrix::identity(2, 2)).expect("stable");
-        let found = compare(&jacobian, &tiny, &dmatrix![1e-12, 0.0; 0.0, 1e-12], 1.0).expect("nothing to compare");
+        let found =
+            compare(&jacobian, &tiny, &dmatrix![1e-12, 0.0; 0.0, 1e-12], (1.0, MAPS)).expect("nothing to compare");
         assert_eq!((found.spread, found.sampling), (0.0, 0.0));
     }
 }

@@ -32,7 +32,10 @@ pub(super) fn settle(program: &Program<'_>, ended: &mut Ended) -> Result<Option<
         let (Shape::Saddle, Some(direction)) = (found.curvature.shape, &found.descent) else {
             break;
         };
-        let Some(better) = off(program, ended, direction)? else {
+        let found_better = off(program, ended, direction)?;
+        // The searches had rows of their own.
+        program.adopt(Some(found_better.as_ref().map_or(&ended.point, |better| &better.point)));
+        let Some(better) = found_better else {
             break;
         };
         let iterations = ended.iterations + better.iterations;

@@ -1,13 +1,11 @@
 //! The gait at given parameters, and continuation of a gait in the parameters.
 
 use super::problem::{Problem, ProblemError};
-use crate::orbit::{GaitRequest, GaitStatus, find_gait};
+use crate::orbit::{GaitRequest, GaitStatus, find_gait, follow};
 use crate::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, Sensitivity, Stop};
 
-/// Smallest part of the way that continuation takes at once.
-const SHORTEST: f64 = 1.0 / 512.0;
 /// Most Newton steps to a gait of which only a guess is known ...
-const NEWTON_STEPS: usize = 50;
+pub(super) const NEWTON_STEPS: usize = 50;
 /// ... and to the next one on the way: more would say that the way is too long.
 const CORRECTIONS: usize = 10;
 
@@ -98,34 +96,14 @@ pub(super) fn follow(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<
 /// # Errors
 /// Only for a problem that is wrong as stated.
 pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<(Start, Option<NoGait>), NoGait> {
-    let between = |t: f64| -> Vec<f64> {
-        from.parameters.iter().zip(to).map(|(a, b)| if t < 1.0 { a + t * (b - a) } else { *b }).collect()
+    let gait = |parameters: &[f64], guess: &[f64]| match problem.settings.interrupt.requested() {
+        true => Err(NoGait::Interrupted),
+        false => within(problem, parameters, guess, CORRECTIONS),
     };
-    let (mut t, mut stride) = (0.0, 1.0);
-    let mut z = from.section.clone();
-    let mut slope = vec![0.0; z.len()];
-    let mut failed = None;
-    while t < 1.0 && failed.is_none() {
-        if problem.settings.interrupt.requested() {
-            failed = Some(NoGait::Interrupted);
-            break;
-        }
-        let next: f64 = f64::min(1.0, t + stride);
-        let guess: Vec<f64> = z.iter().zip(&slope).map(|(z, s)| z + s * (next - t)).collect();
-        match within(problem, &between(next), &guess, CORRECTIONS) {
-            Ok(found) => {
-                slope = found.iter().zip(&z).map(|(a, b)| (a - b) / (next - t)).collect();
-                (z, t) = (found, next);
-                stride *= 2.0;
-            }
-            Err(NoGait::Wrong(error)) => return Err(NoGait::Wrong(error)),
-            Err(failure) => {
-                stride *= 0.5;
-                slope.fill(0.0);
-                failed = (stride < SHORTEST).then_some(failure);
-            }
-        }
+    let is_final = |failure: &NoGait| matches!(failure, NoGait::Interrupted | NoGait::Wrong(_));
+    let followed = follow::follow((&from.parameters, &from.section), to, gait, is_final);
+    match followed.failure {
+        Some(NoGait::Wrong(error)) => Err(NoGait::Wrong(error)),
+        failure => Ok((Start { parameters: followed.parameters, section: followed.section }, failure)),
     }
-    let parameters = if t > 0.0 { between(t) } else { from.parameters.clone() };
-    Ok((Start { parameters, section: z }, failed))
 }

@@ -27,11 +27,6 @@ impl Interrupt {
     pub fn requested(&self) -> bool {
         self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
-
-    /// Whether it can be requested at all: only then is there something to remember for it.
-    pub(super) fn possible(&self) -> bool {
-        self.0.is_some()
-    }
 }
 
 /// Two are equal when they are the same request.
@@ -49,35 +44,26 @@ impl PartialEq for Interrupt {
 /// rounding account for it.
 const MET: f64 = 1e-6;
 
-/// The best point of a search so far, remembered only where the search can be interrupted.
-pub(super) struct Best {
-    wanted: bool,
-    point: Option<(Point, Linearisation)>,
-}
+/// The best point of a search so far.
+#[derive(Default)]
+pub(super) struct Best(Option<(Point, Linearisation)>);
 
 impl Best {
-    pub(super) fn new(interrupt: &Interrupt) -> Self {
-        Self { wanted: interrupt.possible(), point: None }
-    }
-
     /// Keeps a point that is better: one that meets the constraints before one that does not, then the lower objective,
     /// among those that do not the lower violation.
     pub(super) fn remember(&mut self, point: &Point, lin: &Linearisation) {
-        if !self.wanted {
-            return;
-        }
         let rank = |point: &Point| {
             let violation = infeasibility(point);
             if violation <= MET { (false, point.f) } else { (true, violation) }
         };
-        if self.point.as_ref().is_none_or(|(known, _)| rank(point) < rank(known)) {
-            self.point = Some((point.clone(), lin.clone()));
+        if self.0.as_ref().is_none_or(|(known, _)| rank(point) < rank(known)) {
+            self.0 = Some((point.clone(), lin.clone()));
         }
     }
 
     /// Goes back to it.
     pub(super) fn recall(self, point: &mut Point, lin: &mut Linearisation) {
-        if let Some((best, derivatives)) = self.point {
+        if let Some((best, derivatives)) = self.0 {
             (*point, *lin) = (best, derivatives);
         }
     }

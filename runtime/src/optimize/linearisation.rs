@@ -1,6 +1,7 @@
 //! First derivatives of the nonlinear program in the scaled unknowns, by the chain rule through measures, the return
 //! map's Jacobian, its characteristic polynomial and the Jury rows.
 
+use super::factors::{Factor, Groups};
 use super::jacobian_derivative::{JacobianDerivative, jacobian_derivative};
 use super::jury;
 use super::problem::{ConstraintKind, Value};
@@ -49,14 +50,17 @@ impl Program<'_> {
         };
         let mut c = DMatrix::zeros(self.rows.len(), self.len());
         let mut radius = vec![0.0; self.rows.len()];
+        let mut groups = point.groups.iter();
         for (k, (row, &scene)) in self.rows.iter().zip(&self.row_scenes).enumerate() {
             match *row {
                 Row::Worst => c.set_row(k, &self.shortfall_gradient(scene, point)?.transpose()),
                 Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, scene, point)?.transpose()),
                 // All rows of a block at once, when its first comes.
                 Row::Jury(of, 0) => {
-                    for (i, (gradient, slope)) in
-                        self.jury_gradients((of, scene), point, &derivative.along)?.into_iter().enumerate()
+                    for (i, (gradient, slope)) in self
+                        .jury_gradients((of, scene), point, &derivative.along, groups.next())?
+                        .into_iter()
+                        .enumerate()
                     {
                         c.set_row(k + i, &gradient.transpose());
                         radius[k + i] = slope;
@@ -80,6 +84,7 @@ impl Program<'_> {
         (of, scene): (Option<usize>, usize),
         point: &Point,
         derivative: &[DMatrix<f64>],
+        groups: Option<&Groups>,
     ) -> Result<Vec<(DVector<f64>, f64)>, Failure> {
         let bound = self.radius(of, &point.u, (scene, &point.map), &point.parameters)?;
         let reference = self.reference(of);
@@ -90,12 +95,21 @@ impl Program<'_> {
         if let (None, Some(at)) = (of, self.variables.epigraph_at()) {
             dbound[at] = 1.0;
         }
-        let gradient = |row: &jury::Row| {
+        let gradient = |row: &jury::Row, slopes: &[Vec<f64>]| {
             let through = |s: &Vec<f64>| -> f64 { s.iter().zip(&row.coefficients).map(|(a, b)| a * b).sum() };
             DVector::from_fn(self.len(), |j, _| slopes.get(j).map_or(0.0, through) + row.radius * dbound[j])
         };
-        let rows = jury::rows(&polynomial.coefficients, bound.value);
-        Ok(rows.iter().map(|row| (gradient(row), row.radius / reference)).collect())
+        let rows = |coefficients: &[f64], slopes: &[Vec<f64>]| -> Vec<(DVector<f64>, f64)> {
+            let rows = jury::rows(coefficients, bound.value);
+            rows.iter().map(|row| (gradient(row, slopes), row.radius / reference)).collect()
+        };
+        let Some(groups) = groups else { return Ok(rows(&polynomial.coefficients, &slopes)) };
+        let factors = groups.factors(&polynomial.coefficients);
+        let of_factor = |factor: &Factor| {
+            let own: Vec<Vec<f64>> = slopes.iter().map(|whole| factor.slope(whole)).collect();
+            rows(&factor.coefficients, &own)
+        };
+        Ok(factors.iter().flat_map(of_factor).collect())
     }
 
     /// Of the periodicity, d x n.

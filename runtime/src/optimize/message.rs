@@ -38,6 +38,7 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
              min, max, if), state it as two smooth constraints; else start closer to the optimum",
             solution.iterations, solution.kkt_residual
         ),
+        Status::WorkLimit => work_limit(problem, detail),
         Status::Stalled => format!(
             "the search cannot make progress (KKT residual {:.1e}{}); the map may stop or have a kink next to this \
              point: start elsewhere, or keep the ranges away from it",
@@ -49,6 +50,37 @@ pub(super) fn message(problem: &Problem<'_>, solution: &Solution, detail: &str) 
              or start elsewhere"
         ),
     }
+}
+
+/// The message of a search that took more maps than it may; `detail` names violated constraints.
+fn work_limit(problem: &Problem<'_>, detail: &str) -> String {
+    let work = problem.settings.work;
+    let gaits = match problem.period {
+        1 => String::new(),
+        period => format!(" (a gait takes {period} of them)"),
+    };
+    let shown = match detail {
+        "" => "the best gait so far, not an optimum".to_owned(),
+        detail => format!("the gait that came closest to meeting all constraints: {detail}"),
+    };
+    format!(
+        "no optimum within {work} maps of the model{gaits}, the most that one search may take; this is {shown}; allow more \
+         work, start closer, or ask for a shorter period"
+    )
+}
+
+/// The message of a search around which the map has no next step.
+pub(super) fn refused(solution: &Solution, stop: &Stop, detail: &str) -> String {
+    let advice = match stop.reason {
+        StopReason::NoEvent => "narrow the ranges to where steps are shorter",
+        _ => "start elsewhere, or keep the ranges away from it",
+    };
+    format!(
+        "the search cannot make progress (KKT residual {:.1e}{}): next to this point {}; {advice}",
+        solution.kkt_residual,
+        if detail.is_empty() { String::new() } else { format!(", {detail}") },
+        stop_text(stop)
+    )
 }
 
 /// The direction of a flat optimum or a saddle in terms of the varied parameters.
@@ -213,6 +245,14 @@ pub(super) fn kink(kink: &Kink) -> String {
         "multipliers meet near {:.6}{:+.6}i (relative gap {:.1e}): the spectral radius has a kink here, and to one side it \
          rises steeply",
         m.re, m.im, kink.gap
+    )
+}
+
+/// The note where hardly anything of a disturbance is left after one map.
+pub(super) fn deadbeat(radius: f64) -> String {
+    format!(
+        "one map takes a disturbance away (deadbeat): the search stops there, and the spectral radius of {radius:.0e} is what \
+         stopping and rounding leave, not a measured value"
     )
 }
 

@@ -24,6 +24,7 @@ mod critical_cone;
 mod disturbed;
 mod envelope;
 mod escape;
+mod factors;
 mod gait;
 mod independent;
 mod interrupt;
@@ -44,8 +45,10 @@ mod rows;
 mod scene;
 mod search;
 mod second_order;
-mod sobol;
+pub(crate) mod sobol;
 mod solution;
+mod solver;
+mod spectrum;
 mod standing;
 mod starts;
 mod stepper;
@@ -62,11 +65,12 @@ pub use optima::Optimum;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
-pub use robust::{Exception, RobustSolution, Scenario, Uncertain, solve_robust};
+pub use robust::{Exception, InTheWay, RobustSolution, Scenario, Uncertain, solve_robust};
 pub use solution::{
     Active, ActiveKind, Confirmation, Curvature, Disturbed, Independent, Kink, Route, Sensitivity, Shape, Solution,
     Starts, Status,
 };
+pub use solver::{Clarabel, Counts, Tally};
 pub use trade::{Aim, Curve, Family, Gap, Origin, TradeOutcome, TradePoint, trade};
 
 use attempt::{Attempt, attempt, goes_on};
@@ -108,7 +112,7 @@ fn from_all_starts(problem: &Problem<'_>) -> Result<Solution, ProblemError> {
                 solution.status = Status::Interrupted;
                 solution.message = "interrupted before any gait was found".to_owned();
             } else {
-                solution.notes.push(message::nowhere(starts::RESCUES));
+                solution.notes.push(message::nowhere(starts::rescues(problem)));
             }
             solution.starts.run = 1;
             return Ok(solution);

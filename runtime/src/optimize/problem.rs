@@ -4,6 +4,7 @@
 //! lower <= p_j <= upper, margins >= 0 and `spectral_radius <= r`.
 
 use super::interrupt::Interrupt;
+use super::solver::{Clarabel, Tally};
 use crate::return_map::{Accuracy, RequestError, ReturnMap};
 use thiserror::Error;
 
@@ -96,6 +97,9 @@ pub struct Settings {
     pub feasibility: f64,
     /// Most iterations of one start.
     pub max_iterations: usize,
+    /// Most single maps of one search (a gait of k maps takes k, for each machine of a robust problem): a search that needs more
+    /// ends with its best gait so far.
+    pub work: usize,
     /// How many starts; the first is the given one, the others fill the ranges evenly.
     pub starts: usize,
     /// Chooses the further starts.
@@ -108,6 +112,10 @@ pub struct Settings {
     pub long_tests: bool,
     /// Ends the optimisation early, with the best gait so far.
     pub interrupt: Interrupt,
+    /// How Clarabel solves the subproblems.
+    pub clarabel: Clarabel,
+    /// Counts what Clarabel does.
+    pub tally: Tally,
 }
 
 impl Default for Settings {
@@ -117,12 +125,15 @@ impl Default for Settings {
             optimality: 1e-7,
             feasibility: 1e-10,
             max_iterations: 200,
+            work: 100_000,
             starts: 1,
             seed: 0,
             threads: 0,
             trust_radius: 0.25,
             long_tests: true,
             interrupt: Interrupt::default(),
+            clarabel: Clarabel::USED,
+            tally: Tally::default(),
         }
     }
 }
@@ -332,6 +343,7 @@ impl Settings {
             ("feasibility", tolerance(self.feasibility), "must lie between 0 and 1, such as 1e-10"),
             ("trust_radius", tolerance(self.trust_radius), "must lie between 0 and 1, such as 0.25"),
             ("max_iterations", self.max_iterations > 0, "must be at least 1"),
+            ("work", self.work > 0, "must be at least 1"),
             ("starts", (1..=100_000).contains(&self.starts), "must be between 1 and 100000"),
             ("threads", self.threads <= 1024, "must be at most 1024"),
         ];

@@ -6,18 +6,23 @@
 //! A robust problem has several scenes (module `scene`): one design, and in each scene a gait of its own. Coordinates, measures and
 //! Jacobians of all scenes are stacked, the rows of each scene follow each other, and the objective is the worst of all.
 
-use super::characteristic::Characteristic;
+use super::factors::Groups;
 use super::jury;
 use super::kkt::infeasibility;
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 pub(super) use super::rows::Row;
-use super::rows::rows;
+use super::rows::{rows, slots};
 use super::scene::{Scene, stacked};
 use super::task::{Goal, Task};
 use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The value of a row that there is room for, and no factor.
+const NO_ROW: f64 = 1.0;
 
 /// Why there are no values or derivatives at a point.
 #[derive(Clone, Debug)]
@@ -51,6 +56,8 @@ pub(super) struct Point {
     pub(super) h: DVector<f64>,
     /// Scaled inequalities.
     pub(super) c: DVector<f64>,
+    /// The multipliers of each block of Jury rows in groups; empty where these do not matter.
+    pub(super) groups: Vec<Groups>,
 }
 
 /// The nonlinear program.
@@ -69,9 +76,13 @@ pub(super) struct Program<'a> {
     /// The epigraph variable at the start, SI units.
     pub(super) epigraph_start: f64,
     /// Reference radius of each constraint's Jury rows (1 for margins).
-    references: Vec<f64>,
+    pub(super) references: Vec<f64>,
     /// Objective in SI units = sign * scale * f.
     pub(super) objective_scale: f64,
+    /// The groups of multipliers whose factors have the Jury rows; empty for all in one.
+    pub(super) groups: Mutex<Vec<Groups>>,
+    /// Single maps so far, each with its sensitivities.
+    worked: AtomicUsize,
 }
 
 impl<'a> Program<'a> {
@@ -107,6 +118,8 @@ impl<'a> Program<'a> {
             epigraph_start: 0.0,
             references: vec![1.0; problem.constraints.len()],
             objective_scale: 1.0,
+            groups: Mutex::default(),
+            worked: AtomicUsize::new(0),
         };
         let map = program.map(parameters, section)?;
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
@@ -135,7 +148,15 @@ impl<'a> Program<'a> {
             epigraph_start: self.epigraph_start,
             references: self.references.clone(),
             objective_scale: self.objective_scale,
+            groups: Mutex::new(self.groups()),
+            worked: AtomicUsize::new(0),
         }
+    }
+
+    /// Whether the search has used up the work that it may do.
+    pub(super) fn exhausted(&self) -> bool {
+        let most = self.problem.settings.work.saturating_mul(self.scenes.len());
+        self.worked.load(Ordering::Relaxed) >= most
     }
 
     fn set_references(&mut self, parameters: &[f64], map: &MapResult) -> Result<(), Failure> {
@@ -179,8 +200,12 @@ impl<'a> Program<'a> {
 
     /// The function that is optimised, and its name; `None` where that is the epigraph variable.
     pub(super) fn goal(&self) -> Option<(&str, &dyn Expression)> {
+        if self.worst() { None } else { self.target() }
+    }
+
+    /// The function that is optimised, or whose worst value over all scenes is; `None` for the spectral radius.
+    pub(super) fn target(&self) -> Option<(&str, &dyn Expression)> {
         match self.task.goal {
-            _ if self.worst() => None,
             Goal::Asked => match &self.problem.objective {
                 Objective::Expression(e) => Some(("the objective", e.as_ref())),
                 Objective::SpectralRadius => None,
@@ -196,7 +221,8 @@ impl<'a> Program<'a> {
     pub(super) fn reached(&self, point: &Point) -> bool {
         let Goal::Push(i) = self.task.goal else { return false };
         let settings = &self.problem.settings;
-        let holds = match self.goal() {
+        let holds = match self.target() {
+            // With several scenes f is that of the epigraph variable, which is no better than any of them.
             Some(_) => point.f <= 0.0,
             None => self.radius(Some(i), &point.u, (0, &point.map), &point.parameters).is_ok_and(|bound| {
                 let d = point.section.len();
@@ -244,6 +270,7 @@ impl<'a> Program<'a> {
         sensitivity: Sensitivity<'_>,
         measures: bool,
     ) -> Result<MapResult, Failure> {
+        self.worked.fetch_add(self.problem.period, Ordering::Relaxed);
         let outcome = self.problem.map.evaluate(&MapRequest {
             coordinates: section,
             parameters,
@@ -281,6 +308,18 @@ impl<'a> Program<'a> {
         let parameters = self.variables.parameters(u.as_slice(), &self.base);
         let section = self.variables.section(u.as_slice());
         let map = self.map(&parameters, &section)?;
+        self.at(u, (parameters, section), map, &self.groups())
+    }
+
+    /// All values at u, whose map is known, with the Jury rows of the factors that belong to groups near here.
+    pub(super) fn at(
+        &self,
+        u: &DVector<f64>,
+        (parameters, section): (Vec<f64>, Vec<f64>),
+        map: MapResult,
+        near: &[Groups],
+    ) -> Result<Point, Failure> {
+        let mut groups = Vec::new();
         let f = self.sign() * self.objective(u, &map, &parameters)? / self.objective_scale;
         let h = DVector::from_fn(section.len(), |i, _| (map.coordinates[i] - section[i]) / self.variables.nominal[i]);
         let mut c = Vec::with_capacity(self.rows.len());
@@ -298,13 +337,22 @@ impl<'a> Program<'a> {
                 // All rows of a block at once, when its first comes.
                 Row::Jury(of, 0) => {
                     let radius = self.radius(of, u, (scene, &map), &parameters)?.value;
-                    let p = self.characteristic(of, scene, &map);
-                    c.extend(jury::rows(&p.coefficients, radius).iter().map(|row| row.value));
+                    let p = self.characteristic(of, scene, &map).coefficients;
+                    let first = c.len();
+                    if Groups::matter(self.problem.start.len()) {
+                        let here = self.grouped((of, scene), &map, near.get(groups.len()))?;
+                        let rows = here.factors(&p).into_iter().flat_map(|f| jury::rows(&f.coefficients, radius));
+                        c.extend(rows.map(|row| row.value));
+                        groups.push(here);
+                    } else {
+                        c.extend(jury::rows(&p, radius).iter().map(|row| row.value));
+                    }
+                    c.resize(first + slots(self.problem.start.len()), NO_ROW);
                 }
                 Row::Jury(..) => {}
             }
         }
-        Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c) })
+        Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c), groups })
     }
 
     /// Objective in SI units.
@@ -331,57 +379,5 @@ impl<'a> Program<'a> {
         let value = e.evaluate(measures, &self.scenes[scene].parameters(parameters));
         self.problem.check_value(what, &value).map_err(Failure::Wrong)?;
         if value.value.is_finite() { Ok(value) } else { Err(Failure::NotFinite(what.to_owned())) }
-    }
-
-    /// Unit of the bound of a constraint's Jury rows.
-    pub(super) fn reference(&self, of: Option<usize>) -> f64 {
-        of.map_or(self.variables.epigraph.unwrap_or(1.0), |i| self.references[i])
-    }
-
-    /// The bound on the spectral radius of a scene in units of its reference.
-    pub(super) fn radius(
-        &self,
-        of: Option<usize>,
-        u: &DVector<f64>,
-        map: (usize, &MapResult),
-        p: &[f64],
-    ) -> Result<Value, Failure> {
-        let info = self.problem.map.info();
-        let constant = |value| Value {
-            value,
-            dmeasures: vec![0.0; info.measures.len()],
-            dparameters: vec![0.0; info.parameters.len()],
-        };
-        let Some(constraint) = of.and_then(|i| self.problem.constraints.get(i)) else {
-            return Ok(constant(self.variables.epigraph_at().map_or(1.0, |at| u[at])));
-        };
-        let reference = self.reference(of);
-        match &constraint.kind {
-            ConstraintKind::SpectralRadius { bound: Bound::Expression(e) } => {
-                let mut value = self.value(&constraint.name, e.as_ref(), map, p)?;
-                value.value /= reference;
-                value.dmeasures.iter_mut().chain(&mut value.dparameters).for_each(|d| *d /= reference);
-                Ok(value)
-            }
-            ConstraintKind::SpectralRadius { bound: Bound::Constant(r) } => Ok(constant(r / reference)),
-            ConstraintKind::Margin { .. } => Ok(constant(1.0)),
-        }
-    }
-
-    /// Characteristic polynomial of a scene's Jacobian in scaled coordinates, in units of the reference radius.
-    pub(super) fn characteristic(&self, of: Option<usize>, scene: usize, map: &MapResult) -> Characteristic {
-        Characteristic::new(&(self.own(scene, &self.scaled_jacobian(&map.jacobian)) / self.reference(of)))
-    }
-
-    /// The block of a scene in a matrix over the coordinates of all.
-    pub(super) fn own(&self, scene: usize, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        let block = self.block(scene);
-        matrix.view((block.start, block.start), (block.len(), block.len())).into_owned()
-    }
-
-    /// The d x d Jacobian in scaled coordinates: a similarity, so the multipliers are the same.
-    pub(super) fn scaled_jacobian(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-        let nominal = &self.variables.nominal;
-        DMatrix::from_fn(nominal.len(), nominal.len(), |i, j| jacobian[(i, j)] * nominal[j] / nominal[i])
     }
 }

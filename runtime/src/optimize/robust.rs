@@ -8,10 +8,11 @@
 //!
 //! p_s is p with the uncertain parameters of scenario s: the nominal values and the corners of the box. The design is one, the
 //! gait adapts to each machine. Afterwards points inside the box are looked at; one that is worse than all scenarios, or at
-//! which a constraint does not hold, becomes a scenario itself.
+//! which a constraint does not hold, becomes a scenario itself. What is left over makes the answer unconfirmed.
 
 mod check;
 mod judge;
+mod restore;
 mod scenarios;
 
 use super::gait::{self, NoGait, Start};
@@ -23,6 +24,8 @@ use super::solution::{Solution, Status};
 use super::task::Task;
 use super::verdict;
 use check::{Checked, check};
+pub use restore::InTheWay;
+use restore::{Design, Restored};
 
 /// So many different optima of the nominal machine are begun from.
 const MOST_BEGINNINGS: usize = 4;
@@ -81,8 +84,10 @@ pub struct RobustSolution {
     pub checked: usize,
     /// How often points inside the box became scenarios.
     pub rounds: usize,
-    /// Points inside that are worse than the scenarios all the same.
+    /// Points inside that are worse than the scenarios all the same: the status is then no better than `Unconfirmed`.
     pub exceptions: Vec<Exception>,
+    /// Where no design was found with which all constraints hold for all machines: the one in the way.
+    pub in_the_way: Option<InTheWay>,
 }
 
 /// Solves a problem for all machines of the box that `uncertain` spans. Deterministic.
@@ -118,7 +123,15 @@ pub fn solve_robust(mut problem: Problem<'_>, uncertain: &[Uncertain]) -> Result
 fn without(mut solution: Solution, message: impl Fn(&str) -> String) -> RobustSolution {
     solution.message = message(&solution.message);
     let nominal = solution.objective;
-    RobustSolution { solution, scenarios: Vec::new(), nominal, checked: 0, rounds: 0, exceptions: Vec::new() }
+    RobustSolution {
+        solution,
+        scenarios: Vec::new(),
+        nominal,
+        checked: 0,
+        rounds: 0,
+        exceptions: Vec::new(),
+        in_the_way: None,
+    }
 }
 
 /// A robust problem that is being solved.
@@ -132,6 +145,8 @@ struct Robust<'p> {
 struct Found<'p> {
     program: Program<'p>,
     ended: Ended,
+    /// Why it is no optimum, where that is known.
+    in_the_way: Option<InTheWay>,
 }
 
 impl<'p> Robust<'p> {
@@ -166,7 +181,28 @@ impl<'p> Robust<'p> {
                 }
             }
         }
-        self.search(scenes, &nominal.parameters, &section)
+        self.solved(scenes, &Design { parameters: nominal.parameters.clone(), section })
+    }
+
+    /// The search from a design; where it ends without an optimum, once more from one with which all constraints hold, or with
+    /// the constraint that is in the way of such a design.
+    fn solved(&self, scenes: &[Scene], from: &Design) -> Result<Result<Found<'p>, String>, ProblemError> {
+        let first = self.search(scenes, &from.parameters, &from.section)?;
+        let settled =
+            |found: &Found<'_>| converged(found) || matches!(found.ended.end, End::Unbounded | End::Exhausted);
+        let none = self.problem.constraints.is_empty() || self.problem.settings.interrupt.requested();
+        if none || first.as_ref().is_ok_and(settled) {
+            return Ok(first);
+        }
+        Ok(match self.restored(scenes, from)? {
+            Restored::Feasible(design) => match (first, self.search(scenes, &design.parameters, &design.section)?) {
+                (Ok(first), Ok(second)) => Ok(if better(&second, &first) { second } else { first }),
+                (Err(_), second) => second,
+                (first, Err(_)) => first,
+            },
+            Restored::Blocked(blocked) => first.map(|found| Found { in_the_way: Some(*blocked), ..found }),
+            Restored::Lost => first,
+        })
     }
 
     /// The search from gaits of all scenes.
@@ -181,7 +217,7 @@ impl<'p> Robust<'p> {
             let program = Program::with_scenes(self.problem, task, scenes.to_vec(), parameters, section)?;
             let point = verdict::starting_point(&program, parameters, section)?;
             let ended = search(&program, point)?;
-            Ok(Found { program, ended })
+            Ok(Found { program, ended, in_the_way: None })
         };
         match run() {
             Ok(found) => Ok(Ok(found)),
@@ -215,7 +251,7 @@ impl<'p> Robust<'p> {
                 section.extend(&worse.section);
             }
             let parameters = found.ended.point.parameters.clone();
-            match self.search(&scenes, &parameters, &section)? {
+            match self.solved(&scenes, &Design { parameters, section })? {
                 Ok(next) => found = next,
                 Err(words) => {
                     let none = Solution { status: Status::Stalled, ..nominal.clone() };
@@ -230,13 +266,13 @@ impl<'p> Robust<'p> {
         let mut exceptions: Vec<Exception> = exceptions.collect();
         exceptions.extend(checked.lost);
         let mut solution = solution;
-        if !exceptions.is_empty() {
-            solution.notes.push(format!(
-                "of {} points inside the uncertain ranges {} do worse than all scenarios, or have no gait that can be followed; \
-                 narrow the ranges, or look at these points with `gait`",
-                checked.points,
-                exceptions.len()
-            ));
+        if let (Status::Optimal, [first, ..]) = (solution.status, exceptions.as_slice()) {
+            solution.status = Status::Unconfirmed;
+            solution.message = self.exception(first, exceptions.len(), checked.points);
+        }
+        if let Some(in_the_way) = &found.in_the_way {
+            solution.status = Status::InfeasibleLocally;
+            solution.message = self.blocked(in_the_way);
         }
         RobustSolution {
             scenarios: judge::scenarios(self, found),
@@ -245,7 +281,30 @@ impl<'p> Robust<'p> {
             checked: checked.points,
             rounds,
             exceptions,
+            in_the_way: found.in_the_way.clone(),
         }
+    }
+
+    /// The message of a worst case that is not the worst.
+    fn exception(&self, first: &Exception, count: usize, points: usize) -> String {
+        let at = scenarios::words(self.problem, self.uncertain, &first.values);
+        format!(
+            "the search converged, but its scenarios are not the worst: of {points} points inside the uncertain ranges {count} do \
+             worse, or have no gait that can be followed; at {at} {}; narrow the ranges, or look at these machines with `gait`",
+            first.what
+        )
+    }
+
+    /// The message of a constraint in the way, without units of people.
+    fn blocked(&self, in_the_way: &InTheWay) -> String {
+        let name = |i: usize| self.problem.constraints.get(i).map_or("?", |c| c.name.as_str());
+        let at = scenarios::words(self.problem, self.uncertain, &in_the_way.values);
+        format!(
+            "no design was found with which `{}` holds for all machines: at best it misses by {:.2e} of its scale at {at}; \
+             narrow the uncertain ranges, relax it, or widen the ranges",
+            name(in_the_way.reached.constraint),
+            -in_the_way.reached.scaled
+        )
     }
 
     /// The uncertain parameters in a scene.
@@ -260,9 +319,13 @@ impl<'p> Robust<'p> {
     }
 }
 
+/// Whether a search ended at an optimum.
+fn converged(found: &Found<'_>) -> bool {
+    matches!(found.ended.end, End::Converged | End::Acceptable)
+}
+
 /// Whether an end is better than another: converged before all others, then by objective.
 fn better(a: &Found<'_>, b: &Found<'_>) -> bool {
-    let converged = |found: &Found<'_>| matches!(found.ended.end, End::Converged | End::Acceptable);
     // Each program has its own unit of the objective.
     let value = |found: &Found<'_>| found.program.objective_scale * found.ended.point.f;
     match (converged(a), converged(b)) {

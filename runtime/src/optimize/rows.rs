@@ -1,5 +1,6 @@
 //! The inequality rows of the nonlinear program: where each comes from, and their order.
 
+use super::factors::Groups;
 use super::jury;
 use super::problem::{ConstraintKind, Problem};
 use super::task::Task;
@@ -15,9 +16,15 @@ pub(super) enum Row {
     Worst,
 }
 
+/// How many rows a bound on the spectral radius has: as many as its polynomial needs, or room for those of all its factors,
+/// whatever these are.
+pub(super) fn slots(dimension: usize) -> usize {
+    if Groups::matter(dimension) { 2 * dimension } else { jury::count(dimension) }
+}
+
 /// Rows with their scenes, in the order in which `evaluate` writes them.
 pub(super) fn rows(problem: &Problem<'_>, task: &Task, scenes: usize) -> Vec<(Row, usize)> {
-    let count = jury::count(problem.start.len());
+    let count = slots(problem.start.len());
     let jury = |of| (0..scenes).flat_map(move |s| (0..count).map(move |which| (Row::Jury(of, which), s)));
     let mut rows = Vec::new();
     if task.minimises_radius(problem) {

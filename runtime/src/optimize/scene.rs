@@ -1,7 +1,6 @@
 //! Scenes: the machines that one design has to serve. Each is the model with some parameters at other values, and has its own
 //! gait; what the scenes have in common are the varied parameters.
 
-use super::problem::Objective;
 use super::program::{Failure, Point, Program};
 use crate::return_map::{MapResult, Statistics};
 use nalgebra::{DMatrix, DVector};
@@ -76,7 +75,7 @@ pub(super) fn stacked(maps: &[MapResult], d: usize) -> MapResult {
 }
 
 impl Program<'_> {
-    /// Whether the objective is the worst of several scenes, through an epigraph variable t: each scene's objective is no
+    /// Whether what is optimised is the worst of several scenes, through an epigraph variable t: that of each scene is no
     /// worse than t. (The spectral radius has an epigraph of its own.)
     pub(super) fn worst(&self) -> bool {
         self.scenes.len() > 1 && !self.task.minimises_radius(self.problem)
@@ -90,19 +89,19 @@ impl Program<'_> {
         map: &MapResult,
         parameters: &[f64],
     ) -> Result<f64, Failure> {
-        let (Objective::Expression(e), Some(at)) = (&self.problem.objective, self.variables.epigraph_at()) else {
+        let (Some((what, e)), Some(at)) = (self.target(), self.variables.epigraph_at()) else {
             return Ok(0.0);
         };
-        let value = self.value("the objective", e.as_ref(), (scene, map), parameters)?.value;
+        let value = self.value(what, e, (scene, map), parameters)?.value;
         Ok(-self.sign() * (value / self.variables.unit(at) - u[at]))
     }
 
     /// Its gradient.
     pub(super) fn shortfall_gradient(&self, scene: usize, point: &Point) -> Result<DVector<f64>, Failure> {
-        let (Objective::Expression(e), Some(at)) = (&self.problem.objective, self.variables.epigraph_at()) else {
+        let (Some((what, e)), Some(at)) = (self.target(), self.variables.epigraph_at()) else {
             return Ok(DVector::zeros(self.len()));
         };
-        let value = self.value("the objective", e.as_ref(), (scene, &point.map), &point.parameters)?;
+        let value = self.value(what, e, (scene, &point.map), &point.parameters)?;
         let mut gradient = self.total(&value, scene, point) / self.variables.unit(at);
         gradient[at] -= 1.0;
         Ok(gradient * -self.sign())

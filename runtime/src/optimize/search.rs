@@ -15,7 +15,9 @@ use super::problem::ProblemError;
 use super::program::{Failure, Point, Program};
 use super::quasi_newton::QuasiNewton;
 use super::subproblem::{Multipliers, Step, Subproblem, Unsolved, violation};
+use crate::return_map::Stop;
 use nalgebra::{DMatrix, DVector};
+use std::cell::RefCell;
 
 /// Largest penalty; beyond it the constraints count as not satisfiable together.
 const LARGEST_PENALTY: f64 = 1e9;
@@ -49,6 +51,8 @@ pub(super) enum End {
     Unbounded,
     /// Iterations used up.
     IterationLimit,
+    /// Single maps used up; the point is the best one so far.
+    Exhausted,
     /// Steps became too small.
     Stalled,
     /// Clarabel's words.
@@ -67,6 +71,8 @@ pub(super) struct Ended {
     pub(super) lin: Linearisation,
     pub(super) multipliers: Multipliers,
     pub(super) iterations: usize,
+    /// Why the map had no next step at the last trial, where it was refused for that.
+    pub(super) refused: Option<Stop>,
 }
 
 struct Search<'p, 'a> {
@@ -87,6 +93,8 @@ struct Search<'p, 'a> {
     spare: usize,
     /// How often the penalty may still be lowered: not without end, or the merit would not be one.
     reductions: usize,
+    /// Why the map stopped at the trials since the last step.
+    refused: RefCell<Option<Stop>>,
 }
 
 /// What an iteration did.
@@ -100,6 +108,7 @@ enum Progress {
 /// # Errors
 /// When the start has no derivatives, or for a problem that turns out to be wrong as stated.
 pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failure> {
+    let (start, _) = program.settled(start)?;
     let lin = program.linearise_to(&start, true)?;
     let settings = &program.problem.settings;
     let mut search = Search {
@@ -114,15 +123,23 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         margin: 0.5 * settings.attainable_feasibility(),
         spare: 3,
         reductions: REDUCTIONS,
+        refused: RefCell::default(),
     };
     let mut multipliers = Multipliers::zeros(program.len(), search.point.h.len(), search.point.c.len());
     let mut iterations = 0;
-    let mut best = Best::new(&settings.interrupt);
+    let mut best = Best::default();
     let end = loop {
         best.remember(&search.point, &search.lin);
         if settings.interrupt.requested() {
             best.recall(&mut search.point, &mut search.lin);
             break End::Interrupted;
+        }
+        if program.exhausted() {
+            let end = search.verdict(&multipliers, End::Exhausted);
+            if end == End::Exhausted {
+                best.recall(&mut search.point, &mut search.lin);
+            }
+            break end;
         }
         if iterations == settings.max_iterations {
             break search.verdict(&multipliers, End::IterationLimit);
@@ -134,7 +151,8 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
             Progress::Ended(end) => break end,
         }
     };
-    let answer = matches!(end, End::Converged | End::Acceptable | End::Reached | End::Interrupted);
+    let early = matches!(end, End::Interrupted | End::Exhausted);
+    let answer = early || matches!(end, End::Converged | End::Acceptable | End::Reached);
     if !answer && search.degenerate() {
         // What was given up on the way to a step of no length is no gait to report.
         search.lin = program.linearise_to(&search.began, true)?;
@@ -145,7 +163,9 @@ pub(super) fn search(program: &Program<'_>, start: Point) -> Result<Ended, Failu
         search.refine_derivatives().map_err(Failure::Wrong)?;
         search.retie(&mut multipliers);
     }
-    Ok(Ended { end, point: search.point, lin: search.lin, multipliers, iterations })
+    program.adopt(Some(&search.point));
+    let refused = search.refused.into_inner();
+    Ok(Ended { end, point: search.point, lin: search.lin, multipliers, iterations, refused })
 }
 
 impl Search<'_, '_> {
@@ -274,6 +294,8 @@ impl Search<'_, '_> {
             radius: self.radius,
             penalty: self.penalty,
             tie: self.tie,
+            clarabel: &self.program.problem.settings.clarabel,
+            tally: &self.program.problem.settings.tally,
         }
     }
 

@@ -8,7 +8,7 @@
 const LENGTH: usize = 1 << 16;
 
 /// Coordinate `axis` of point `number` of the sequence of a seed, in [0, 1).
-pub(super) fn coordinate(number: usize, axis: usize, seed: u64) -> f64 {
+pub(crate) fn coordinate(number: usize, axis: usize, seed: u64) -> f64 {
     let axes = sobol_burley::NUM_DIMENSIONS as usize;
     let sequence = mixed(seed ^ mixed((number / LENGTH) as u64) ^ mixed((axis / axes) as u64).rotate_left(32));
     // The casts keep all bits: both remainders are below 2^16, and of the mixed seed any 32 bits will do.

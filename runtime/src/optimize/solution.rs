@@ -28,6 +28,8 @@ pub enum Status {
     Unbounded,
     /// More iterations than allowed.
     IterationLimit,
+    /// More single maps than one search may take: the best gait so far.
+    WorkLimit,
     /// Steps became too small to matter before the conditions of an optimum were met.
     Stalled,
     /// Clarabel could not solve a subproblem, also after rescaling and regularising.

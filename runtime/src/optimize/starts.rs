@@ -9,7 +9,7 @@ use super::sobol;
 use rayon::prelude::*;
 
 /// How many other parameter sets are tried when there is no gait at the given ones.
-pub(super) const RESCUES: usize = 32;
+const RESCUES: usize = 32;
 
 /// The given parameters with the varied ones inside their ranges, and the numbers of those that had to be moved.
 pub(super) fn projected(problem: &Problem<'_>) -> (Vec<f64>, Vec<usize>) {
@@ -42,7 +42,7 @@ pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, 
     {
         return Ok(start);
     }
-    let found = (1..=RESCUES).into_par_iter().find_map_first(|number| {
+    let found = (1..=rescues(problem)).into_par_iter().find_map_first(|number| {
         if problem.settings.interrupt.requested() {
             return None;
         }
@@ -51,6 +51,12 @@ pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, 
         Some(Start { parameters, section })
     });
     found.ok_or(if problem.settings.interrupt.requested() { NoGait::Interrupted } else { failure })
+}
+
+/// How many other parameter sets are tried: fewer where a gait takes many maps, so that the work stays bounded.
+pub(super) fn rescues(problem: &Problem<'_>) -> usize {
+    let each = gait::NEWTON_STEPS.saturating_mul(problem.period);
+    (problem.settings.work / each.max(1)).clamp(1, RESCUES)
 }
 
 /// Start number `number` (from 1), followed from the first; where the gait cannot be followed all the way, the last one

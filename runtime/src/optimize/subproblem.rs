@@ -9,10 +9,10 @@
 //! program is infeasible. It is posed in units of the radius, so that Clarabel
 //! sees steps of order one however small the ball has become.
 
+use super::solver::{Clarabel, Tally};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
-    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus, SupportedConeT,
-    ZeroConeT,
+    DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus, SupportedConeT, ZeroConeT,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -33,6 +33,9 @@ pub(super) struct Subproblem<'a> {
     pub(super) penalty: f64,
     /// What a violated equality costs: nu; infinite where they have to hold.
     pub(super) tie: f64,
+    /// Clarabel's settings at the first attempt.
+    pub(super) clarabel: &'a Clarabel,
+    pub(super) tally: &'a Tally,
 }
 
 /// Multipliers: gradient = A'y + C'lambda + low - high at a stationary point; all but y are not negative.
@@ -90,35 +93,31 @@ impl Subproblem<'_> {
             return Ok(Step { s: DVector::zeros(0), multipliers: Multipliers::zeros(0, self.h.len(), self.c.len()) });
         }
         let mut words = Vec::new();
-        for attempt in &ATTEMPTS {
-            match self.attempt(attempt) {
-                Ok(step) => return Ok(step),
+        for attempt in attempts(self.clarabel) {
+            match self.attempt(&attempt) {
+                Ok(step) => {
+                    self.tally.subproblem(words.len() + 1, true);
+                    return Ok(step);
+                }
                 Err(word) => words.push(word),
             }
             if self.tie.is_infinite() && words.iter().any(|word| word.contains("Infeasible")) {
                 break;
             }
         }
+        self.tally.subproblem(words.len(), false);
         Err(Unsolved(words.join(", ")))
     }
 
     fn attempt(&self, attempt: &Attempt) -> Result<Step, String> {
         let scale = self.objective_scale(attempt.tame_penalty);
         let data = self.assemble(attempt.regularise, scale);
-        let settings = DefaultSettings {
-            verbose: false,
-            max_threads: 1,
-            tol_gap_abs: attempt.tolerance,
-            tol_gap_rel: attempt.tolerance,
-            tol_feas: attempt.tolerance,
-            equilibrate_enable: attempt.equilibrate,
-            static_regularization_constant: attempt.static_regularisation,
-            ..DefaultSettings::default()
-        };
-        let mut solver = DefaultSolver::new(&data.p, &data.q, &data.a, &data.b, &data.cones, settings)
-            .map_err(|error| error.to_string())?;
+        let mut solver =
+            DefaultSolver::new(&data.p, &data.q, &data.a, &data.b, &data.cones, attempt.clarabel.settings())
+                .map_err(|error| error.to_string())?;
         solver.solve();
         let solution = &solver.solution;
+        self.tally.attempt(solution.status, solution.iterations);
         let usable = match solution.status {
             SolverStatus::Solved => true,
             SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress | SolverStatus::MaxIterations => {
@@ -241,41 +240,36 @@ pub(super) fn violation(h: &DVector<f64>, c: &DVector<f64>) -> f64 {
 }
 
 /// One way to ask Clarabel.
+#[derive(Clone)]
 struct Attempt {
-    tolerance: f64,
+    clarabel: Clarabel,
     /// Residuals with which a solution that is not quite solved is still used.
     accept: f64,
-    equilibrate: bool,
-    static_regularisation: f64,
     /// Added to the diagonal of P.
     regularise: f64,
     /// Whether the objective is divided by the penalty.
     tame_penalty: bool,
 }
 
-const FIRST: Attempt = Attempt {
-    tolerance: 1e-10,
-    accept: 1e-9,
-    equilibrate: true,
-    static_regularisation: 1e-8,
-    regularise: 0.0,
-    tame_penalty: false,
-};
-
-const ATTEMPTS: [Attempt; 5] = [
-    FIRST,
-    Attempt { tame_penalty: true, ..FIRST },
-    Attempt { tolerance: 1e-9, accept: 1e-8, equilibrate: false, static_regularisation: 1e-9, ..FIRST },
-    Attempt { tolerance: 1e-9, accept: 1e-7, static_regularisation: 1e-7, regularise: 1e-8, ..FIRST },
-    Attempt {
-        tolerance: 1e-8,
-        accept: 1e-5,
-        static_regularisation: 1e-6,
-        regularise: 1e-6,
-        tame_penalty: true,
-        ..FIRST
-    },
-];
+/// As wanted; then with the penalty tamed, without equilibration, and with more and more regularisation.
+fn attempts(wanted: &Clarabel) -> [Attempt; 5] {
+    let looser = |tolerance: f64, static_regularisation: f64| Clarabel {
+        tolerance: wanted.tolerance.max(tolerance),
+        static_regularisation,
+        ..wanted.clone()
+    };
+    let accept = 10.0 * wanted.tolerance;
+    let first = Attempt { clarabel: wanted.clone(), accept, regularise: 0.0, tame_penalty: false };
+    let tame = Attempt { tame_penalty: true, ..first.clone() };
+    let bare = Attempt {
+        clarabel: Clarabel { equilibrate: false, ..looser(1e-9, 1e-9) },
+        accept: accept.max(1e-8),
+        ..first.clone()
+    };
+    let firm = Attempt { clarabel: looser(1e-9, 1e-7), accept: accept.max(1e-7), regularise: 1e-8, ..first.clone() };
+    let last = Attempt { clarabel: looser(1e-8, 1e-6), accept: 1e-5, regularise: 1e-6, tame_penalty: true };
+    [first, tame, bare, firm, last]
+}
 
 struct Data {
     p: CscMatrix<f64>,

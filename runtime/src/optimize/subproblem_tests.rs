@@ -17,6 +17,8 @@ struct Owned {
     upper: Vec<f64>,
     radius: f64,
     penalty: f64,
+    clarabel: Clarabel,
+    tally: Tally,
 }
 
 impl Owned {
@@ -33,6 +35,8 @@ impl Owned {
             radius: self.radius,
             penalty: self.penalty,
             tie: self.penalty,
+            clarabel: &self.clarabel,
+            tally: &self.tally,
         }
     }
 }
@@ -61,6 +65,8 @@ fn random() -> impl Strategy<Value = Owned> {
                 upper: take(n).iter().map(|x| if *x < -0.5 { f64::INFINITY } else { x.max(0.0) }).collect(),
                 radius: 10f64.powf(radius),
                 penalty: 10f64.powf(penalty),
+                clarabel: Clarabel::USED,
+                tally: Tally::new(),
             }
         })
     })
@@ -103,4 +109,31 @@ proptest! {
             prop_assert!(residual.amax() <= 1e-7 * (1.0 + m.largest()), "{residual}");
         }
     }
+}
+
+/// One interior-point iteration solves nothing: every attempt fails with `MaxIterations`, and what is said names each.
+#[test]
+fn what_clarabel_cannot_solve_is_tried_in_every_way() {
+    let short = Owned {
+        hessian: DMatrix::identity(2, 2),
+        gradient: nalgebra::dvector![1.0, -0.4],
+        equality: DMatrix::zeros(0, 2),
+        h: DVector::zeros(0),
+        inequality: nalgebra::dmatrix![0.7, 0.2],
+        c: nalgebra::dvector![-0.3],
+        lower: vec![f64::NEG_INFINITY; 2],
+        upper: vec![0.5, f64::INFINITY],
+        radius: 1.0,
+        penalty: 10.0,
+        clarabel: Clarabel { iterations: 1, ..Clarabel::USED },
+        tally: Tally::new(),
+    };
+    let unsolved = short.subproblem().solve().err().map(|Unsolved(words)| words);
+    assert_eq!(unsolved, Some(["MaxIterations"; 5].join(", ")));
+    let counts = short.tally.counts();
+    assert_eq!((counts.subproblems, counts.again, counts.unsolved, counts.max_iterations), (1, 1, 1, 5));
+    // With iterations enough, the first attempt does it.
+    let long = Owned { clarabel: Clarabel::USED, tally: Tally::new(), ..short };
+    assert!(long.subproblem().solve().is_ok());
+    assert_eq!((long.tally.counts().again, long.tally.counts().unsolved), (0, 0));
 }

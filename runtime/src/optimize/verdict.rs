@@ -26,6 +26,9 @@ const ROUNDING_OF_RANGE: f64 = 1e-12;
 const NEXT_TO: f64 = 1e-6;
 const FAR: f64 = 1e-2;
 
+/// A smallest spectral radius below this is none.
+const NO_MORE: f64 = 1e-5;
+
 /// A verdict and how good it is: lower is better.
 pub(super) struct Verdict {
     pub(super) solution: Solution,
@@ -120,6 +123,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         End::Reached => Status::Stalled,
         End::Unbounded => Status::Unbounded,
         End::IterationLimit => Status::IterationLimit,
+        End::Exhausted => Status::WorkLimit,
         End::Stalled => Status::Stalled,
         End::Subproblem(_) => Status::SubproblemFailed,
     };
@@ -148,6 +152,7 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
             solution.kkt_residual
         ));
     }
+    solution.notes.extend(deadbeat(program, &ended.point, solution));
     if let Some(kink) = &solution.kink {
         solution.notes.push(message::kink(kink));
     }
@@ -156,8 +161,20 @@ fn judge(program: &Program<'_>, ended: &Ended, solution: &mut Solution) {
         Some((parameter, bound)) if solution.status == Status::Unconfirmed => {
             message::range_too_wide(problem, parameter, solution.parameters[parameter], bound)
         }
-        _ => message::message(problem, solution, &detail),
+        _ => match &ended.refused {
+            Some(stop) if solution.status == Status::Stalled => message::refused(solution, stop, &detail),
+            _ => message::message(problem, solution, &detail),
+        },
     };
+}
+
+/// The note on a smallest spectral radius that is none but for rounding: where the search stopped at the least that it looks for.
+pub(super) fn deadbeat(program: &Program<'_>, point: &Point, solution: &Solution) -> Option<String> {
+    let variables = &program.variables;
+    let minimised = matches!(program.problem.objective, Objective::SpectralRadius);
+    let least = variables.epigraph_at().is_some_and(|at| point.u[at] <= 1.01 * variables.floor);
+    let radius = solution.spectral_radius;
+    (minimised && solution.status == Status::Optimal && (least || radius <= NO_MORE)).then(|| message::deadbeat(radius))
 }
 
 /// A varied parameter that is next to a bound in units of its range, but not in its own size, and the bound: in a range of
@@ -323,5 +340,6 @@ pub(super) fn without_values(status: Status, message: String, parameters: Vec<f6
 
 /// The search's starting point as a point of the program.
 pub(super) fn starting_point(program: &Program<'_>, parameters: &[f64], section: &[f64]) -> Result<Point, Failure> {
+    program.adopt(None);
     program.evaluate(&DVector::from_vec(program.variables.pack(parameters, section, program.epigraph_start)))
 }

@@ -3,6 +3,7 @@
 //! [`find_gait`] solves P(z) = z; [`multipliers`] are the eigenvalues of dP/dz there. A gait is stable where all of
 //! them are smaller than 1 in magnitude.
 
+pub(crate) mod follow;
 mod multiple;
 mod multipliers;
 mod newton;

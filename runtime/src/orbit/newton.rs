@@ -78,6 +78,18 @@ pub enum GaitStatus {
     NotConverged,
 }
 
+impl GaitStatus {
+    /// Its name in results.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::Open(_) => "not_closed",
+            Self::NotConverged => "not_converged",
+            Self::Stopped(stop) => stop.reason.name(),
+        }
+    }
+}
+
 /// The result of a search.
 #[derive(Clone, Debug)]
 pub struct GaitOutcome {

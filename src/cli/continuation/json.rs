@@ -106,7 +106,7 @@ fn reason(end: &EndReason) -> &'static str {
         EndReason::RangeEnd(Side::Lower) => "lower_end",
         EndReason::RangeEnd(Side::Upper) => "upper_end",
         EndReason::Closed => "closed",
-        EndReason::MapStops(stop) => crate::cli::stops::name(stop.reason),
+        EndReason::MapStops(stop) => stop.reason.name(),
         EndReason::NotClosed(_) => "not_closed",
         EndReason::StepTooSmall => "step_failed",
         EndReason::Unbounded => "unbounded",

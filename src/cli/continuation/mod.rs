@@ -12,7 +12,7 @@ mod words;
 pub(super) use args::ContinueArgs;
 
 use super::args::Cli;
-use super::{InputError, Outcome, gait, inputs, optimize, output, plots, provenance};
+use super::{InputError, Outcome, inputs, optimize, output, plots, provenance};
 use crate::files;
 use crate::load::{Loaded, load};
 use crate::provenance::Provenance;
@@ -64,7 +64,7 @@ pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError>
     let report = Report { loaded: &loaded, parameters: &parameters, over, range, warnings: &warnings, shown, args };
     match &outcome {
         ContinuationOutcome::NoStart(search) => {
-            let (status, message) = (gait::status(&search.status), report.no_start(&search.message));
+            let (status, message) = (search.status.name(), report.no_start(&search.message));
             report.print(cli.json.then_some(&provenance), (status, &message), &Diagram::default());
             Ok(Outcome::Without)
         }
@@ -218,7 +218,7 @@ fn counts(args: &ContinueArgs) -> Result<(), InputError> {
     let longest = u32::try_from(args.doublings).ok().and_then(|n| args.period.checked_shl(n)).unwrap_or(usize::MAX);
     if args.doublings > 10 || longest > LONGEST_PERIOD {
         return Err(InputError(format!(
-            "--doublings {}: gaits of {} maps doubled so often are longer than {LONGEST_PERIOD} maps\n  help: give a smaller number",
+            "--doublings {}: period {} doubled so often is more than {LONGEST_PERIOD} maps\n  help: give a smaller number",
             args.doublings, args.period
         )));
     }

@@ -41,39 +41,46 @@ impl Report<'_> {
 
     /// How far each of them gets while the others hold, SI units; `null` without a conflict.
     pub(super) fn reached_json(&self) -> Value {
-        let one = |member: &Reached| {
-            json!({
-                "constraint": self.problem.constraints[member.constraint].text,
-                "value": self.side(member).map(|side| side.value),
-                "margin": member.margin,
-                "parameters": self.named_parameters(&member.parameters),
-                "section": self.named_section(&member.section),
-            })
-        };
         match &self.solution.conflict {
-            Some(conflict) => conflict.members.iter().map(one).collect(),
+            Some(conflict) => conflict.members.iter().map(|member| self.one_reached_json(member)).collect(),
             None => Value::Null,
         }
     }
 
+    /// How far one constraint gets, SI units.
+    pub(super) fn one_reached_json(&self, member: &Reached) -> Value {
+        json!({
+            "constraint": self.problem.constraints[member.constraint].text,
+            "value": self.side(member).map(|side| side.value),
+            "margin": member.margin,
+            "parameters": self.named_parameters(&member.parameters),
+            "section": self.named_section(&member.section),
+        })
+    }
+
     /// "`climb_speed` is at most 1.31 m/s where `peak_force <= 100 N` holds".
     fn reached_text(&self, member: &Reached, conflict: &Conflict) -> String {
+        let best = self.best_text(member);
+        let others: Vec<&Reached> = conflict.members.iter().filter(|m| m.constraint != member.constraint).collect();
+        match others.as_slice() {
+            [] => best,
+            [other] => format!("{best} where `{}` holds", self.problem.constraints[other.constraint].text),
+            _ => format!("{best} where the others hold"),
+        }
+    }
+
+    /// "`climb_speed` is at most 1.31 m/s".
+    pub(super) fn best_text(&self, member: &Reached) -> String {
         let constraint = &self.problem.constraints[member.constraint];
         let quantity = |value: f64| match self.unit(constraint) {
             _ if constraint.stability_bound.is_some() => format_quantity(value, ""),
             Some(unit) => format_quantity(value, unit),
             None => format_si(value, constraint.dimension),
         };
-        let best = match self.side(member) {
+        match self.side(member) {
             Some(Side { text, most: true, value }) => format!("`{text}` is at most {}", quantity(value)),
             Some(Side { text, most: false, value }) => format!("`{text}` is at least {}", quantity(value)),
             None => format!("`{}` misses by at least {}", constraint.text, quantity(-member.margin)),
-        };
-        let others: Vec<&Reached> = conflict.members.iter().filter(|m| m.constraint != member.constraint).collect();
-        match others.as_slice() {
-            [] => best,
-            [other] => format!("{best} where `{}` holds", self.problem.constraints[other.constraint].text),
-            _ => format!("{best} where the others hold"),
         }
     }
 
@@ -98,7 +105,7 @@ impl Report<'_> {
     }
 
     /// "psi in 5 .. 45 deg".
-    fn ranges(&self) -> Vec<String> {
+    pub(super) fn ranges(&self) -> Vec<String> {
         self.varied().into_iter().map(|row| format!("{} in {}", row[0], row[2])).collect()
     }
 }
@@ -119,7 +126,7 @@ fn sides(constraint: &Constraint) -> Option<(&str, &str, bool)> {
 }
 
 /// `a`, `b` and `c`.
-fn listed(items: &[String]) -> String {
+pub(super) fn listed(items: &[String]) -> String {
     match items {
         [] => String::new(),
         [one] => one.clone(),

@@ -250,7 +250,7 @@ fn one(unit: &str) -> String {
 }
 
 /// The word for a status in JSON and text.
-pub(super) fn status(status: Status) -> &'static str {
+pub(in crate::cli) fn status(status: Status) -> &'static str {
     match status {
         Status::Optimal => "optimal",
         Status::Unconfirmed => "unconfirmed",
@@ -262,6 +262,7 @@ pub(super) fn status(status: Status) -> &'static str {
         Status::NoGait => "no_gait",
         Status::Unbounded => "unbounded",
         Status::IterationLimit => "iteration_limit",
+        Status::WorkLimit => "work_limit",
         Status::Stalled => "stalled",
         Status::SubproblemFailed => "subproblem_failed",
     }

@@ -1,9 +1,11 @@
 //! Which problem the flags ask for: the spec's default, a named one with additions, or one made of flags alone.
 
+use super::robust;
 use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs};
 use crate::load::Loaded;
 use gaitc_compiler::front::flags::{parse_assignment, parse_constraint, parse_objective, parse_range};
+use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Model, NodeId, Problem, Sense, Symbol, Vary};
 
 /// The problem, and the spec with the expressions that the flags added.
@@ -23,6 +25,7 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
         problem.vary.retain(|v| v.parameter != parameter);
         problem.vary.push(Vary { parameter, lower, upper });
     }
+    robust::add(loaded, args, &mut problem)?;
     for text in &args.subject_to {
         problem.constraints.push(parse_constraint(&mut spec, text)?);
     }
@@ -35,6 +38,19 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
             "nothing to vary\n  help: name at least one parameter and its bounds, e.g. --vary 'psi=1..45 deg'"
                 .to_owned(),
         ));
+    }
+    if let [vary, others @ ..] = problem.vary.as_slice()
+        && problem.vary.iter().all(|vary| vary.lower >= vary.upper)
+    {
+        let parameter = &spec.parameters[vary.parameter];
+        let value = format_quantity(vary.lower, &parameter.unit);
+        let whose =
+            if others.is_empty() { "the range is a single value," } else { "every range is a single value, such as" };
+        return Err(InputError(format!(
+            "nothing to vary: {whose} `{0}` = {value}\n  help: widen one, e.g. --vary '{0}=LO..HI', or \
+             look at this gait with `gaitc gait {1} --set '{0}={value}'`",
+            parameter.name, spec.name
+        )));
     }
     if args.trade.is_none() {
         depends_on_what_varies(&spec, &problem, problem.objective, &problem.objective_text)?;
@@ -74,6 +90,7 @@ fn fresh(spec: &mut Model, sense: Sense, text: &str) -> Result<Problem, InputErr
         objective_text: text.to_owned(),
         objective_dimension,
         vary: Vec::new(),
+        robust: Vec::new(),
         constraints: Vec::new(),
         period: 1,
     })

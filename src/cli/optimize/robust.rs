@@ -1,18 +1,16 @@
-//! `--robust NAME=LO..HI`: parameters that are only known to lie in ranges, and how the design does over these.
+//! `--robust NAME=LO..HI` and `robust` of a problem: parameters that are only known to lie in ranges, and how the design does over these.
 
+use super::conflict::listed;
 use super::report::Report;
 use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, inputs, output};
 use crate::load::Loaded;
 use crate::problem::fixed;
 use gaitc_compiler::front::flags::{parse_assignment, parse_range};
-use gaitc_compiler::front::{format_number, format_quantity, in_unit};
-use gaitc_compiler::ir::{Model, Problem, Vary};
-use gaitc_runtime::optimize::{ActiveKind, RobustSolution, Scenario, Uncertain};
+use gaitc_compiler::front::{MOST_ROBUST, format_number, format_quantity, in_unit};
+use gaitc_compiler::ir::{self, Model, Problem, Vary};
+use gaitc_runtime::optimize::{ActiveKind, InTheWay, RobustSolution, Scenario, Uncertain};
 use serde_json::{Value, json};
-
-/// More uncertain parameters than this have more scenarios than anybody would wait for.
-const MOST_UNCERTAIN: usize = 12;
 
 /// A robust result with what was uncertain.
 pub(super) struct Shown<'a> {
@@ -20,27 +18,45 @@ pub(super) struct Shown<'a> {
     pub(super) found: &'a RobustSolution,
 }
 
-/// The uncertain parameters of the flags.
-pub(super) fn uncertain(loaded: &Loaded, args: &OptimizeArgs, problem: &Problem) -> Result<Vec<Uncertain>, InputError> {
-    let mut uncertain = Vec::new();
+/// Adds the uncertain parameters of the flags to those of the problem; one that it has already gets the range of the flag.
+pub(super) fn add(loaded: &Loaded, args: &OptimizeArgs, problem: &mut Problem) -> Result<(), InputError> {
     let mut seen = Vec::new();
     for text in &args.robust {
         let (name, range) = parse_assignment(text)?;
         let parameter = inputs::parameter(loaded, "--robust", name)?;
         inputs::once(&mut seen, "--robust", name)?;
         let (lower, upper) = parse_range(range, loaded.spec.parameters[parameter].dimension)?;
-        if problem.vary.iter().any(|vary| vary.parameter == parameter) {
-            return Err(InputError(format!(
-                "--robust: `{name}` is varied, so it cannot be uncertain\n  help: leave it out of --robust, or state a problem \
-                 that does not vary it, with --maximize or --minimize and --vary"
-            )));
-        }
-        uncertain.push(Uncertain { parameter, lower, upper });
+        problem.robust.retain(|known| known.parameter != parameter);
+        problem.robust.push(ir::Uncertain { parameter, lower, upper });
     }
-    if uncertain.len() > MOST_UNCERTAIN {
-        return Err(InputError(format!("--robust: give at most {MOST_UNCERTAIN} parameters")));
+    let varied = |u: &&ir::Uncertain| problem.vary.iter().any(|vary| vary.parameter == u.parameter);
+    if let Some(both) = problem.robust.iter().find(varied) {
+        let name = &loaded.spec.parameters[both.parameter].name;
+        return Err(InputError(format!(
+            "`{name}` is varied, so it cannot be uncertain\n  help: leave it out of --vary or of --robust, or state a problem that \
+             does not vary it or is not robust over it, with --maximize or --minimize and --vary"
+        )));
     }
-    Ok(uncertain)
+    if problem.robust.len() > MOST_ROBUST {
+        return Err(InputError(format!(
+            "{} parameters are uncertain\n  help: give at most {MOST_ROBUST} to --robust and to the problem's `robust`, those that \
+             matter most: each needs scenarios of its own",
+            problem.robust.len()
+        )));
+    }
+    Ok(())
+}
+
+/// Refuses a trade-off under uncertainty.
+pub(super) fn no_trade(problem: &Problem) -> Result<(), InputError> {
+    if problem.robust.is_empty() {
+        return Ok(());
+    }
+    Err(InputError(format!(
+        "--trade: problem `{}` is robust, and trade-offs are for problems without uncertainty\n  help: name another problem with \
+         --problem, or state one with --maximize or --minimize and --vary",
+        problem.name
+    )))
 }
 
 /// The problem with all that is not the same for every machine among what varies.
@@ -63,12 +79,35 @@ pub(super) fn stability_bounds(
     };
     match loose.constraints.iter().find(moves) {
         Some(constraint) if !uncertain.is_empty() => Err(InputError(format!(
-            "--robust: the bound in `{}` is not the same for all machines\n  help: bound the spectral radius by a number, as in \
+            "the bound in `{}` is not the same for all machines\n  help: bound the spectral radius by a number, as in \
              `spectral_radius <= 0.95`",
             constraint.text
         ))),
         _ => Ok(()),
     }
+}
+
+/// The message of a robust problem without a design for all machines; `None` where nothing is known to be in the way.
+pub(super) fn message(spec: &Model, problem: &Problem, found: &RobustSolution) -> Option<String> {
+    let in_the_way = found.in_the_way.as_ref()?;
+    let report = Report { spec, problem, solution: &found.solution, robust: None };
+    let text = |i: &usize| format!("`{}`", problem.constraints[*i].text);
+    let machine = problem.robust.iter().zip(&in_the_way.values).map(|(u, value)| {
+        let parameter = &spec.parameters[u.parameter];
+        format!("{} = {}", parameter.name, format_quantity(*value, &parameter.unit))
+    });
+    let kept = match in_the_way.limits.iter().map(text).collect::<Vec<_>>() {
+        none if none.is_empty() => String::new(),
+        limits => format!(" where {} hold{} for all", listed(&limits), if limits.len() == 1 { "s" } else { "" }),
+    };
+    Some(format!(
+        "{} cannot hold for all machines with one design for {}: for {} {}{kept} (found by searches, which is not a proof); relax \
+         it, narrow the uncertain ranges, or widen the ranges",
+        text(&in_the_way.reached.constraint),
+        listed(&report.ranges()),
+        machine.collect::<Vec<_>>().join(", "),
+        report.best_text(&in_the_way.reached),
+    ))
 }
 
 impl Report<'_> {
@@ -96,6 +135,14 @@ impl Report<'_> {
         };
         let exception =
             |e: &gaitc_runtime::optimize::Exception| json!({ "parameters": values(&e.values), "what": e.what });
+        let in_the_way = |way: &InTheWay| {
+            let texts = way.limits.iter().map(|i| self.constraint(ActiveKind::Constraint(*i)));
+            json!({
+                "parameters": values(&way.values),
+                "reached": self.one_reached_json(&way.reached),
+                "limits": texts.collect::<Vec<_>>(),
+            })
+        };
         json!({
             "ranges": uncertain.iter().map(|u| (name(u), json!([u.lower, u.upper]))).collect::<serde_json::Map<_, _>>(),
             "nominal": found.nominal,
@@ -103,6 +150,7 @@ impl Report<'_> {
             "checked": found.checked,
             "rounds": found.rounds,
             "exceptions": found.exceptions.iter().map(exception).collect::<Vec<_>>(),
+            "in_the_way": found.in_the_way.as_ref().map(in_the_way),
         })
     }
 

@@ -3,7 +3,7 @@
 mod quantity;
 mod report;
 
-use super::{Outcome, request};
+use super::{Outcome, conflict, request};
 use crate::cli::args::OptimizeArgs;
 use crate::cli::{InputError, output, plots};
 use crate::files;
@@ -11,7 +11,7 @@ use crate::load::Loaded;
 use crate::problem::{Start, assemble};
 use crate::provenance::Provenance;
 use gaitc_compiler::ir::{self, Binary};
-use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Status, TradeOutcome, trade};
+use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Solution, Status, TradeOutcome, trade};
 use quantity::Quantity;
 use report::Report;
 use std::path::Path;
@@ -111,6 +111,24 @@ fn not_written(path: &Path, error: &dyn std::fmt::Display) -> String {
 impl<'l> Trade<'l> {
     /// The problem for an aim, from the start or from a gait of the curve.
     fn problem(&self, aim: Aim, origin: Option<&Origin>) -> Problem<'l> {
+        let (spec, problem) = self.stated(aim);
+        let mut start = self.start.clone();
+        if let Some(origin) = origin {
+            start.parameters.clone_from(&origin.parameters);
+            start.section.clone_from(&origin.section);
+            start.settings = Settings { starts: 1, ..start.settings };
+        }
+        assemble(self.loaded, &spec, &problem, start)
+    }
+
+    /// What the search for an aim ended with, in words; a conflict in units.
+    fn message(&self, aim: Aim, solution: &Solution) -> String {
+        let (spec, problem) = self.stated(aim);
+        conflict::message(&spec, &problem, solution).unwrap_or_else(|| solution.message.clone())
+    }
+
+    /// The problem for an aim, and the spec with its expressions.
+    fn stated(&self, aim: Aim) -> (ir::Model, ir::Problem) {
         let (mut spec, mut problem) = (self.spec.clone(), self.problem.clone());
         let objective = if aim == Aim::Second { &self.second } else { &self.first };
         problem.sense = objective.sense;
@@ -120,13 +138,7 @@ impl<'l> Trade<'l> {
         if let Aim::Bounded(bound) = aim {
             problem.constraints.push(self.bound(&mut spec, bound));
         }
-        let mut start = self.start.clone();
-        if let Some(origin) = origin {
-            start.parameters.clone_from(&origin.parameters);
-            start.section.clone_from(&origin.section);
-            start.settings = Settings { starts: 1, ..start.settings };
-        }
-        assemble(self.loaded, &spec, &problem, start)
+        (spec, problem)
     }
 
     /// The second quantity at least as good as a bound.

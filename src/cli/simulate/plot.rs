@@ -6,6 +6,9 @@ use crate::picture::{self, Curve, Panel, Path, Places, Series, Stretches, label}
 use gaitc_compiler::front::si_unit;
 use gaitc_compiler::ir::{Joint, Observation};
 
+/// With more transitions than this none is drawn.
+const MOST_EVENTS: usize = 60;
+
 impl Report<'_> {
     /// Curves over time: of what was asked for (`chosen`), else of what the spec's drawing names, else of the states.
     pub(super) fn series(&self, chosen: bool) -> Series {
@@ -15,10 +18,13 @@ impl Report<'_> {
             (false, false) => drawing.iter().map(|panel| self.panel(panel, &self.along(panel))).collect(),
             (false, true) => self.state_panels(),
         };
+        // More lines than this would be a grey area.
+        let few = self.trajectory.events.len() <= MOST_EVENTS;
         let events = self
             .trajectory
             .events
             .iter()
+            .filter(|_| few)
             .map(|event| picture::Event { at: event.time, label: self.transition(event.transition).to_owned() });
         Series { title: self.title(), x: label("time", "s"), panels, events: events.collect() }
     }

@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use crate::motion::BodyPath;
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Observation, State};
-use gaitc_runtime::return_map::Warning;
+use gaitc_runtime::return_map::{StopReason, Warning};
 use gaitc_runtime::trajectory::{Event, Trajectory, Until};
 use serde_json::{Map, Value, json};
 
@@ -66,7 +66,7 @@ impl Report<'_> {
     }
 
     fn status(&self) -> &'static str {
-        self.trajectory.stop.map_or("completed", stops::name)
+        self.trajectory.stop.map_or("completed", StopReason::name)
     }
 
     fn message(&self) -> String {
@@ -108,7 +108,7 @@ impl Report<'_> {
         let (run, spec) = (self.trajectory, &self.loaded.spec);
         let state = |values: &[f64]| named(self.state_names(), values);
         let stopped =
-            run.stop.map(|reason| json!({ "reason": stops::name(reason), "time": run.time, "state": state(&run.end) }));
+            run.stop.map(|reason| json!({ "reason": reason.name(), "time": run.time, "state": state(&run.end) }));
         json!({
             "model": spec.name,
             "status": self.status(),
@@ -194,9 +194,19 @@ impl Report<'_> {
             text += &format!("warning: {warning}\n");
         }
         if let Some(reason) = self.trajectory.stop {
-            text += &format!("help: {}\n", stops::explanation(reason).1);
+            text += &format!("help: {}\n", self.help(reason));
         }
         text + "\n" + &self.steps_table()
+    }
+
+    fn help(&self, reason: StopReason) -> String {
+        let general = stops::explanation(reason).1;
+        if reason != StopReason::NoEvent {
+            return general.to_owned();
+        }
+        // Some seconds after the last step are enough to see what it does instead of the next one.
+        let last = self.trajectory.events.last().map_or(0.0, |event| event.time);
+        format!("see it fall: --time {}s --plot FILE.svg; or {general}", (last + 2.0).ceil())
     }
 
     /// One row a step, with the section's coordinates after it; without a section one row a transition, with all states.

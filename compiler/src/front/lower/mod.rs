@@ -13,6 +13,7 @@ mod dynamics;
 mod expr;
 mod fixed;
 mod fold;
+mod held;
 mod invariance;
 mod involution;
 mod lowering;
@@ -72,6 +73,7 @@ pub(crate) fn lower(spec: &Spec, sources: &SourceMap, diagnostics: &mut Vec<Diag
         on_section::check(spec, &model, diagnostics);
         involution::check(spec, &model, diagnostics);
         invariance::check(spec, &model, diagnostics);
+        held::check(spec, &model, &observed, diagnostics);
         unused::check(spec, diagnostics);
     }
     (model, observed)

@@ -2,6 +2,7 @@
 //! a point's values, so that it leaves neither nodes nor switches in the model.
 
 use super::definitions::{Definitions, Lets};
+use super::held::Held;
 use super::lowering::Lowering;
 use super::value::Place;
 use super::{Scope, empty_model};
@@ -24,6 +25,8 @@ pub(crate) struct Observed {
     pub(crate) lowered: Lets,
     pub(crate) lets: Vec<Observation>,
     pub(crate) drawing: Option<Drawing>,
+    /// The velocities of points that are to stand still.
+    pub(crate) held: Vec<Held>,
 }
 
 /// Lowers what can be observed along runs of a model.
@@ -43,8 +46,9 @@ pub(super) fn observed(
     let mut lowering = Lowering::new(&mut names, scope, definitions, sources, diagnostics);
     let lets = lowering.observed_lets(spec);
     let drawing = lowering.drawing(spec);
+    let held = lowering.held_points(spec);
     let lowered = lowering.into_lets();
-    Observed { names, scope: scope.outside(), lowered, lets, drawing }
+    Observed { names, scope: scope.outside(), lowered, lets, drawing, held }
 }
 
 impl Lowering<'_> {

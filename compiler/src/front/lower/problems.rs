@@ -28,15 +28,16 @@ impl Lowering<'_> {
     }
 
     fn problem(&mut self, item: &Named<Problem>) -> Option<ir::Problem> {
-        let Problem { doc, default, objective, vary, subject_to, period } = &item.value;
+        let Problem { doc, default, objective, vary, robust, subject_to, period } = &item.value;
         let lowered = objective.as_ref().and_then(|(sense, equation)| {
             let lowered = self.objective(equation)?;
             (*sense == ir::Sense::Minimize || self.can_grow(equation, lowered.0)).then_some(lowered)
         });
-        let vary: Vec<Option<ir::Vary>> = vary.iter().map(|item| self.vary(item)).collect();
+        let varied: Vec<Option<ir::Vary>> = vary.iter().map(|item| self.vary(item)).collect();
+        let uncertain: Vec<Option<ir::Uncertain>> = robust.iter().map(|item| self.uncertain(item, vary)).collect();
         let constraints: Vec<Option<ir::Constraint>> = subject_to.iter().map(|item| self.constraint(item)).collect();
         let ((sense, equation), (objective, objective_dimension)) = objective.as_ref().zip(lowered)?;
-        Some(ir::Problem {
+        let problem = ir::Problem {
             name: item.name.clone(),
             default: default.is_some(),
             doc: doc.clone(),
@@ -44,10 +45,13 @@ impl Lowering<'_> {
             objective,
             objective_text: equation.text.value.trim().to_owned(),
             objective_dimension,
-            vary: vary.into_iter().collect::<Option<_>>()?,
+            vary: varied.into_iter().collect::<Option<_>>()?,
+            robust: uncertain.into_iter().collect::<Option<_>>()?,
             constraints: constraints.into_iter().collect::<Option<_>>()?,
             period: *period,
-        })
+        };
+        self.same_bounds(&problem, subject_to);
+        Some(problem)
     }
 
     /// An objective: exactly `spectral_radius`, or an expression over measures and parameters.
@@ -64,6 +68,47 @@ impl Lowering<'_> {
     }
 
     fn vary(&mut self, item: &Named<Interval>) -> Option<ir::Vary> {
+        let (parameter, lower, upper) = self.range(item)?;
+        Some(ir::Vary { parameter, lower, upper })
+    }
+
+    /// An uncertain parameter, which must not be one of those that vary.
+    fn uncertain(&mut self, item: &Named<Interval>, vary: &[Named<Interval>]) -> Option<ir::Uncertain> {
+        let range = self.range(item);
+        if let Some(varied) = vary.iter().find(|varied| varied.name == item.name) {
+            let message = format!("`{}` is both varied and uncertain", item.name);
+            let error = Diagnostic::error(Code::ProblemForm, message).at(item.span, "").see(varied.span, "varied here");
+            self.diagnostics
+                .push(error.help("a designer chooses it, or does not know it: leave it out of one of the two"));
+            return None;
+        }
+        let (parameter, lower, upper) = range?;
+        Some(ir::Uncertain { parameter, lower, upper })
+    }
+
+    /// Refuses bounds on the spectral radius that are not the same for all machines of a robust problem.
+    fn same_bounds(&mut self, problem: &ir::Problem, subject_to: &[Equation]) {
+        if problem.robust.is_empty() {
+            return;
+        }
+        let mut ranges = problem.vary.iter().map(|v| (v.parameter, v.lower, v.upper)).collect::<Vec<_>>();
+        ranges.extend(problem.robust.iter().map(|u| (u.parameter, u.lower, u.upper)));
+        let moves = |symbol: Symbol| {
+            let of = |i: usize| ranges.iter().any(|(parameter, lower, upper)| *parameter == i && lower < upper);
+            matches!(symbol, Symbol::Parameter(i) if of(i))
+        };
+        for (constraint, equation) in problem.constraints.iter().zip(subject_to) {
+            if constraint.stability_bound.is_some_and(|bound| self.model.graph.depends(&[bound], moves)) {
+                let message =
+                    "in a robust problem the bound on `spectral_radius` is the same for all machines and designs";
+                let error = Diagnostic::error(Code::ProblemForm, message).at(self.root_span(equation), "");
+                self.diagnostics.push(error.help("bound it by a number, as in `spectral_radius <= 0.95`"));
+            }
+        }
+    }
+
+    /// A parameter and a range for it, SI units.
+    fn range(&mut self, item: &Named<Interval>) -> Option<(usize, f64, f64)> {
         let model = &self.model;
         let names: Vec<String> = model.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -77,7 +122,7 @@ impl Lowering<'_> {
             return None;
         };
         let (lower, upper) = quantities.interval(&item.value, dimension, &format!("`{}`", item.name))?;
-        Some(ir::Vary { parameter, lower, upper })
+        Some((parameter, lower, upper))
     }
 
     /// A constraint, `lhs <= rhs` or `lhs >= rhs`.

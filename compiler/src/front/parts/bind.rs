@@ -125,7 +125,7 @@ impl<'a> Renaming<'a> {
             measure.value.expr.iter_mut().for_each(|equation| self.equation(equation, &[]));
         }
         for problem in part.problems.iter_mut().map(|item| &mut item.value) {
-            problem.vary.iter_mut().for_each(|item| self.named(item));
+            problem.vary.iter_mut().chain(&mut problem.robust).for_each(|item| self.named(item));
             problem.objective.iter_mut().for_each(|(_, equation)| self.equation(equation, &[]));
             problem.subject_to.iter_mut().for_each(|equation| self.equation(equation, &[]));
         }
@@ -211,8 +211,8 @@ fn vocabulary<'p>(part: &'p Spec, fixed: impl Iterator<Item = &'p str>) -> HashM
     let mut known: HashMap<String, Option<Span>> = HashMap::new();
     let used = part.equations().filter_map(|equation| equation.expression.as_ref()).flat_map(|e| &e.names);
     known.extend(used.filter(|name| reserved(&name.name).is_none()).map(|name| (name.name.clone(), None)));
-    let vary = part.problems.iter().flat_map(|problem| &problem.value.vary);
-    known.extend(vary.map(|item| (item.name.clone(), None)));
+    let ranges = part.problems.iter().flat_map(|problem| problem.value.vary.iter().chain(&problem.value.robust));
+    known.extend(ranges.map(|item| (item.name.clone(), None)));
     let published = part.published.iter().flat_map(|item| item.value.quantities());
     let published = published.filter(|item| reserved(&item.name).is_none());
     known.extend(published.map(|item| (item.name.clone(), None)));

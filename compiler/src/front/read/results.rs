@@ -4,7 +4,7 @@ use super::fields::{Fields, Sink, constraint, equation, interval, strings};
 use super::fields_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front::document::{Entry, ValueKind};
-use crate::front::keys::{self, LONGEST_PERIOD};
+use crate::front::keys::{self, LONGEST_PERIOD, MOST_ROBUST};
 use crate::front::parser::shortened;
 use crate::front::spec::{Equation, Interval, Measure, Named, Problem};
 use crate::ir::Sense;
@@ -49,6 +49,7 @@ pub(super) fn problems(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Prob
             default: default(&fields, sink),
             objective: objective(&fields, sink),
             vary: vary(&fields, sink),
+            robust: robust(&fields, sink),
             subject_to: subject_to.into_iter().map(|text| constraint(text, sink)).collect(),
             period: period(&fields, sink),
         };
@@ -112,16 +113,44 @@ fn vary(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Vec<Named<Interval>> {
     if fields.require("vary", example, sink).is_none() {
         return Vec::new();
     }
-    let mut vary = Vec::new();
-    let entries = fields.table("vary", sink);
-    for entry in entries {
-        if let Some(value) = interval(entry, example, sink) {
-            vary.push(Named { name: entry.key.clone(), span: entry.key_span, value });
-        }
-    }
-    if entries.is_empty() && fields.get("vary").is_some_and(|entry| matches!(entry.value.kind, ValueKind::Table(_))) {
+    let vary = intervals(fields, "vary", example, sink);
+    if is_empty_table(fields, "vary") {
         let diagnostic = Diagnostic::error(Code::ProblemForm, format!("{} varies nothing", fields.what));
         sink.push(diagnostic.at(fields.place, "").help(format!("write `{example}`")));
     }
     vary
+}
+
+fn robust(fields: &Fields<'_>, sink: &mut Sink<'_>) -> Vec<Named<Interval>> {
+    let example = "robust = { m = [\"2.4 kg\", \"2.8 kg\"] }";
+    let Some(entry) = fields.get("robust") else { return Vec::new() };
+    let robust = intervals(fields, "robust", example, sink);
+    if is_empty_table(fields, "robust") {
+        let diagnostic = Diagnostic::error(Code::ProblemForm, format!("{} is robust over nothing", fields.what));
+        let help = format!("leave `robust` out, or write `{example}`");
+        sink.push(diagnostic.at(entry.key_span, "").help(help));
+    }
+    if robust.len() > MOST_ROBUST {
+        let message = format!("{} is robust over {} parameters", fields.what, robust.len());
+        let help = format!("keep the {MOST_ROBUST} that matter most: each needs scenarios of its own");
+        sink.push(Diagnostic::error(Code::ProblemForm, message).at(entry.key_span, "").help(help));
+    }
+    robust
+}
+
+/// A table of names with intervals.
+fn intervals(fields: &Fields<'_>, key: &str, example: &str, sink: &mut Sink<'_>) -> Vec<Named<Interval>> {
+    let mut intervals = Vec::new();
+    for entry in fields.table(key, sink) {
+        if let Some(value) = interval(entry, example, sink) {
+            intervals.push(Named { name: entry.key.clone(), span: entry.key_span, value });
+        }
+    }
+    intervals
+}
+
+fn is_empty_table(fields: &Fields<'_>, key: &str) -> bool {
+    fields
+        .get(key)
+        .is_some_and(|entry| matches!(&entry.value.kind, ValueKind::Table(entries) if entries.entries.is_empty()))
 }

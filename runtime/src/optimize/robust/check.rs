@@ -49,7 +49,7 @@ pub(super) fn check(robust: &Robust<'_>, found: &Found<'_>) -> Result<Checked, P
             Ok((gait, standing)) => all.push((values, gait, standing)),
             Err(NoGait::Wrong(error)) => return Err(error),
             Err(failure) => {
-                checked.lost.push(Exception { values, what: format!("the gait cannot be followed there: {failure}") });
+                checked.lost.push(Exception { values, what: format!("no gait can be followed there: {failure}") });
             }
         }
     }

@@ -62,6 +62,7 @@ pub(super) fn judged(robust: &Robust<'_>, found: &mut Found<'_>) -> Result<Solut
         End::Interrupted => Status::Interrupted,
         End::Unbounded => Status::Unbounded,
         End::IterationLimit => Status::IterationLimit,
+        End::Exhausted => Status::WorkLimit,
         End::Stalled | End::Reached => Status::Stalled,
         End::Subproblem(_) => Status::SubproblemFailed,
     };
@@ -116,7 +117,11 @@ pub(super) fn judged(robust: &Robust<'_>, found: &mut Found<'_>) -> Result<Solut
             return Ok(solution);
         }
     }
-    solution.message = message::message(robust.problem, &solution, &detail);
+    solution.notes.extend(verdict::deadbeat(program, &ended.point, &solution));
+    solution.message = match &ended.refused {
+        Some(stop) if solution.status == Status::Stalled => message::refused(&solution, stop, &detail),
+        _ => message::message(robust.problem, &solution, &detail),
+    };
     Ok(solution)
 }
 
@@ -198,7 +203,7 @@ fn confirm_one(robust: &Robust<'_>, one: &Stands, nominal: &[f64]) -> Result<Con
 pub(super) fn scenarios(robust: &Robust<'_>, found: &Found<'_>) -> Vec<Scenario> {
     let Ok(all) = stands(robust, found) else { return Vec::new() };
     let (program, ended) = (&found.program, &found.ended);
-    let converged = matches!(ended.end, End::Converged | End::Acceptable);
+    let converged = super::converged(found);
     let least = significant(program, ended);
     let one = |(s, (scene, stands)): (usize, (&super::Scene, Stands))| {
         let (mut limits, mut worst) = (Vec::new(), false);

@@ -57,6 +57,9 @@ impl Search<'_, '_> {
             Some(point) if ratio > 1e-4 => self.accept(point, &step.multipliers)?,
             _ => false,
         };
+        if moved {
+            self.refused.take();
+        }
         if !moved {
             self.radius = 0.25 * f64::min(self.radius, length);
         } else if ratio < 0.25 {
@@ -91,7 +94,12 @@ impl Search<'_, '_> {
                 Ok((same && within(ANOTHER_KIND, self.began.map.duration, after)).then_some(point))
             }
             Err(Failure::Wrong(error)) => Err(error),
-            Err(_) => Ok(None),
+            Err(failure) => {
+                if let Failure::Stopped(stop) = failure {
+                    self.refused.replace(Some(stop));
+                }
+                Ok(None)
+            }
         }
     }
 
@@ -120,13 +128,22 @@ impl Search<'_, '_> {
 
     /// Moves to a point; `false` when it has no derivatives.
     fn accept(&mut self, point: Point, multipliers: &Multipliers) -> Result<bool, ProblemError> {
-        let lin = match self.program.linearise_to(&point, self.lin.rough) {
-            Ok(lin) => lin,
-            Err(Failure::Wrong(error)) => return Err(error),
-            Err(_) => return Ok(false),
+        let next = self.program.settled(point).and_then(|(point, others)| {
+            let lin = self.program.linearise_to(&point, self.lin.rough)?;
+            Ok((point, others, lin))
+        });
+        let (point, others, lin) = match next {
+            Ok(next) => next,
+            Err(failure) => {
+                self.program.adopt(Some(&self.point));
+                return if let Failure::Wrong(error) = failure { Err(error) } else { Ok(false) };
+            }
         };
-        let change = lagrangian_gradient(&lin, multipliers) - lagrangian_gradient(&self.lin, multipliers);
-        self.model.update(&(&point.u - &self.point.u), &change);
+        // With other rows the multipliers are those of others.
+        if !others {
+            let change = lagrangian_gradient(&lin, multipliers) - lagrangian_gradient(&self.lin, multipliers);
+            self.model.update(&(&point.u - &self.point.u), &change);
+        }
         (self.point, self.lin) = (point, lin);
         Ok(true)
     }

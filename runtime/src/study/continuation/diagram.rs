@@ -232,7 +232,7 @@ fn is_known(traced: &[Traced<'_>], at: usize, bifurcation: usize) -> Result<bool
             let same_period = other.system.period == from.system.period;
             let crossing = other.path.found.iter().any(|f| f.kind == Kind::Branch && near(other, &f.sample));
             let origin = i != 0 && other.path.samples.get(other.start).is_some_and(|sample| near(other, sample));
-            same_period && i != at && (crossing || origin) || same_period && i == at && origin
+            same_period && (origin || crossing && i != at)
         })),
         Kind::Fold | Kind::NeimarkSacker => Ok(true),
     }

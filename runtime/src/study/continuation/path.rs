@@ -30,11 +30,17 @@ pub(super) struct Path {
     pub(super) end: EndReason,
 }
 
-/// How a step failed, and whether a shorter one may do.
-enum Trial {
-    Accepted { sample: Sample, found: Vec<Found>, iterations: usize, landed: Option<Side>, closed: bool },
-    Shorter(Miss),
+/// A step that is taken.
+struct Accepted {
+    sample: Sample,
+    found: Vec<Found>,
+    iterations: usize,
+    landed: Option<Side>,
+    closed: bool,
 }
+
+/// A step, or why a shorter one has to be tried.
+type Trial = Result<Accepted, Miss>;
 
 pub(super) struct Walk<'s, 'a> {
     pub(super) system: &'s System<'a>,
@@ -61,7 +67,7 @@ impl Walk<'_, '_> {
                 return Ok(path);
             }
             match self.attempt(&here, &start, step, path.samples.len() - 1)? {
-                Trial::Shorter(miss) => {
+                Err(miss) => {
                     if let Miss::Stopped(stop) = miss {
                         stopped = Some(stop);
                     }
@@ -75,7 +81,7 @@ impl Walk<'_, '_> {
                         return Ok(path);
                     }
                 }
-                Trial::Accepted { sample, found, iterations, landed, closed } => {
+                Ok(Accepted { sample, found, iterations, landed, closed }) => {
                     let halved = self.halves(&found)?;
                     path.found.extend(found);
                     if halved {
@@ -124,15 +130,15 @@ impl Walk<'_, '_> {
         let nearly_shortest = step < NEARLY_SHORTEST * self.settings.shortest;
         let (Corrected { mut sample, iterations }, landed) = match self.reach(here, step)? {
             Ok(reached) => reached,
-            Err(miss) => return Ok(Trial::Shorter(miss)),
+            Err(miss) => return Ok(Err(miss)),
         };
         let Some(direction) = tangent(&sample.matrix, &here.tangent) else {
-            return Ok(Trial::Shorter(Miss::Diverged));
+            return Ok(Err(Miss::Diverged));
         };
         sample.tangent = direction;
         let angle = here.tangent.dot(&sample.tangent).clamp(-1.0, 1.0).acos();
         if angle > ANGLE.1 && !nearly_shortest {
-            return Ok(Trial::Shorter(Miss::Diverged));
+            return Ok(Err(Miss::Diverged));
         }
         let closed = self.closes(here, &sample, start)?;
         if closed {
@@ -141,10 +147,10 @@ impl Walk<'_, '_> {
         let found = match self.system.bifurcations(here, &sample, after)? {
             Seen::All(found) => found,
             Seen::TooMuch(found) if nearly_shortest => found,
-            Seen::TooMuch(_) => return Ok(Trial::Shorter(Miss::Diverged)),
+            Seen::TooMuch(_) => return Ok(Err(Miss::Diverged)),
         };
         let landed = landed.filter(|_| !closed);
-        Ok(Trial::Accepted { sample, found, iterations, landed, closed })
+        Ok(Ok(Accepted { sample, found, iterations, landed, closed }))
     }
 
     /// A step along the tangent, or up to the end of the range.

@@ -34,7 +34,15 @@ const SHIFT: f64 = 1e-9;
 /// A gait is the same after fewer maps when it returns to within this distance, in scaled coordinates.
 const REPEATS: f64 = 1e-4;
 
-impl<'a> System<'a> {
+/// Unit vectors at a branch point.
+struct Directions {
+    /// Along the other branch.
+    other: DVector<f64>,
+    /// In the null space, across the known branch.
+    across: DVector<f64>,
+}
+
+impl System<'_> {
     /// Whether a gait returns after half the period already.
     pub(super) fn repeats_sooner(&self, sample: &Sample) -> Result<bool, RequestError> {
         if self.period % 2 == 1 {
@@ -113,7 +121,7 @@ impl<'a> System<'a> {
 
     /// Points on both sides of a branch point on the branch that crosses there, with tangents away from it.
     pub(super) fn beside_branch_point(&self, at: &Sample) -> Result<[Option<Sample>; 2], RequestError> {
-        let Some((direction, across)) = self.other_direction(at)? else {
+        let Some(Directions { other: direction, across }) = self.other_direction(at)? else {
             return Ok([None, None]);
         };
         let mut both = [None, None];
@@ -134,7 +142,7 @@ impl<'a> System<'a> {
     }
 
     /// The direction of the other branch, and the null vector across the known one.
-    fn other_direction(&self, at: &Sample) -> Result<Option<(DVector<f64>, DVector<f64>)>, RequestError> {
+    fn other_direction(&self, at: &Sample) -> Result<Option<Directions>, RequestError> {
         let null = null_space(&at.matrix, 2);
         let svd = at.matrix.clone().svd(true, false);
         let smallest = svd.singular_values.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, _)| i);
@@ -152,7 +160,7 @@ impl<'a> System<'a> {
         let second = left.transpose() * (ahead.matrix - behind.matrix) / (2.0 * DIFFERENCE);
         let along = |v: &DVector<f64>| (&second * v)[0];
         let direction = &at.tangent * -along(&across) + &across * (2.0 * along(&at.tangent));
-        Ok(direction.try_normalize(1e-8).map(|direction| (direction, across)))
+        Ok(direction.try_normalize(1e-8).map(|other| Directions { other, across }))
     }
 }
 

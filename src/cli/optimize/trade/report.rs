@@ -7,7 +7,7 @@ use crate::cli::output;
 use crate::picture::{Line, Mark};
 use gaitc_compiler::front::{format_quantity, in_unit};
 use gaitc_compiler::ir::{Parameter, Sense};
-use gaitc_runtime::optimize::{Curve, Gap, Solution, TradeOutcome, TradePoint};
+use gaitc_runtime::optimize::{Aim, Curve, Gap, Solution, TradeOutcome, TradePoint};
 use serde_json::{Map, Value, json};
 
 /// A curve with the names and units of its spec.
@@ -42,7 +42,7 @@ impl Report<'_, '_> {
                 all.insert("status".into(), json!(curve_status(curve)));
                 all.insert("message".into(), json!(self.message(curve)));
                 all.insert("points".into(), curve.points.iter().map(|p| self.point(p)).collect());
-                all.insert("gaps".into(), curve.gaps.iter().map(gap).collect());
+                all.insert("gaps".into(), curve.gaps.iter().map(|gap| self.gap(gap)).collect());
                 all.insert("dominated".into(), json!(curve.dominated));
             }
             TradeOutcome::NoFirst(end) | TradeOutcome::NoSecond(end) => {
@@ -86,14 +86,24 @@ impl Report<'_, '_> {
         }
     }
 
+    fn gap(&self, gap: &Gap) -> Value {
+        let end = gap.solution.as_ref();
+        json!({
+            "bound": gap.bound,
+            "status": end.map(|solution| status(solution.status)),
+            "message": end.map(|solution| self.trade.message(Aim::Bounded(gap.bound), solution)),
+        })
+    }
+
     /// Why there is no curve.
     fn no_end(&self) -> String {
-        let of = |q: &Quantity, end: &Solution| {
-            format!("there is no best `{}` to begin with: {} ({})", q.text, end.message, status(end.status))
+        let of = |q: &Quantity, (aim, end): (Aim, &Solution)| {
+            let message = self.trade.message(aim, end);
+            format!("there is no best `{}` to begin with: {message} ({})", q.text, status(end.status))
         };
         match self.outcome {
-            TradeOutcome::NoFirst(end) => of(&self.trade.first, end),
-            TradeOutcome::NoSecond(end) => of(&self.trade.second, end),
+            TradeOutcome::NoFirst(end) => of(&self.trade.first, (Aim::First, end)),
+            TradeOutcome::NoSecond(end) => of(&self.trade.second, (Aim::Second, end)),
             TradeOutcome::Curve(_) => String::new(),
         }
     }
@@ -129,7 +139,12 @@ impl Report<'_, '_> {
         text += &format!("\n{}", output::table(&header, rows));
         for Gap { bound, solution } in &curve.gaps {
             if let Some(solution) = solution {
-                text += &format!("no optimum at {} = {}: {}\n", b.text, b.show(*bound), solution.message);
+                text += &format!(
+                    "no optimum at {} = {}: {}\n",
+                    b.text,
+                    b.show(*bound),
+                    self.trade.message(Aim::Bounded(*bound), solution)
+                );
             }
         }
         text + &format!("slope: of {} per unit of {}\n", a.label(), b.label())
@@ -193,15 +208,6 @@ impl Report<'_, '_> {
             marks: ends.into_iter().flatten().map(mark).collect(),
         }
     }
-}
-
-fn gap(gap: &Gap) -> Value {
-    let end = gap.solution.as_ref();
-    json!({
-        "bound": gap.bound,
-        "status": end.map(|solution| status(solution.status)),
-        "message": end.map(|solution| &solution.message),
-    })
 }
 
 fn curve_status(curve: &Curve) -> &'static str {
