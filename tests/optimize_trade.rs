@@ -162,7 +162,7 @@ fn what_cannot_be_traded_is_said() {
         (&["--trade", "climb_sped:spectral_radius"], &["climb_sped", "climb_speed"]),
         (&["--trade", "climb_sped:mean_power"], &["climb_sped", "did you mean `climb_speed`"]),
         (&["--trade", "climb_speed:mean_power", "--out", "a", "--plot", "a"], &["the same file"]),
-        (&["--trade", "climb_speed:mean_power", "--plot", "a.png"], &["pictures are SVG", "`.svg`"]),
+        (&["--trade", "climb_speed:mean_power", "--plot", "a.gif"], &["an SVG or a PNG", "`.svg`"]),
         (
             &["--trade", "climb_speed:mean_power", "--maximize", "peak_force", "--vary", "psi=5..30 deg"],
             &["`peak_force`", "neither of the two"],

@@ -15,7 +15,7 @@ fn gaits_are_drawn_the_same_each_time_with_what_made_them() {
     for ending in ["svg", "png"] {
         let draw = |name: &str| {
             let (circle, map) = (place(&format!("{name}_circle.{ending}")), place(&format!("{name}_map.{ending}")));
-            let set = ["--set", "alpha=22 deg", "--plot-multipliers", &circle, "--plot-map", &map];
+            let set = ["--set", "lambda=0.95", "--plot-multipliers", &circle, "--plot-map", &map];
             let output = gaitc(&[&["gait", "rimless_wheel"], &set[..]].concat());
             assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
             [circle, map].map(|file| fs::read(file).unwrap())
@@ -25,7 +25,7 @@ fn gaits_are_drawn_the_same_each_time_with_what_made_them() {
         for bytes in &first {
             let made = find(bytes).expect("a provenance");
             assert_eq!(made["model"], "rimless_wheel");
-            assert_eq!(made["run"]["set"]["alpha"], "22 deg");
+            assert_eq!(made["run"]["set"]["lambda"], "0.95");
         }
         if ending == "svg" {
             let map = String::from_utf8(first[1].clone()).unwrap();
