@@ -109,7 +109,7 @@ fn results_come_in_the_order_of_the_points_until_somebody_stops() {
 /// The map contracts to p, and is defined within 1 of it only: from the start at 0 a gait far away has to be followed.
 #[test]
 fn a_gait_that_is_far_away_is_followed() {
-    let map = Scalar(|z, p| ((z - p).abs() < 1.0).then(|| (p + 0.5 * (z - p), 0.5)));
+    let map = Scalar(|z, p| ((z - p).abs() < 1.0).then_some((p + 0.5 * (z - p), 0.5)));
     let reference = Reference {
         parameters: vec![0.2],
         memory: Vec::new(),
@@ -135,7 +135,7 @@ fn a_gait_that_is_far_away_is_followed() {
 /// z -> p z (1 - z) settles on a point, on two by turns, on four; outside [0, 1] it leaves for good.
 #[test]
 fn basins_of_the_logistic_map() {
-    let map = Scalar(|z, p| (z.abs() < 1e6).then(|| (p * z * (1.0 - z), p * (1.0 - 2.0 * z))));
+    let map = Scalar(|z, p| (z.abs() < 1e6).then_some((p * z * (1.0 - z), p * (1.0 - 2.0 * z))));
     let fates = |p: f64, periods: usize, starts: &[f64]| -> Vec<Fate> {
         let parameters = [p];
         let settings = Settings {
