@@ -1,5 +1,5 @@
 //! The commands that the tutorials and how-to pages show are run, in order and in one folder with the specs, and print what
-//! the pages say.
+//! the pages say. What a page calls a file is written there first.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
@@ -8,7 +8,7 @@ mod common;
 mod pages;
 
 use common::gaitc_in;
-use pages::{commands, page, root, shows, split};
+use pages::{commands, files, page, root, shows, split};
 use std::fs;
 use std::path::Path;
 
@@ -30,7 +30,11 @@ fn copy(from: &Path, to: &Path) {
 fn runs(path: &str, at_least: usize) {
     let folder = tempfile::tempdir().unwrap();
     copy(&root().join("specs"), &folder.path().join("specs"));
-    let all = commands(&split(&page(path)).0);
+    let blocks = split(&page(path)).0;
+    for (name, text) in files(&blocks) {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let all = commands(&blocks);
     assert!(all.len() >= at_least, "{path}: only {} commands", all.len());
     let mut failures = Vec::new();
     for shown in &all {

@@ -75,6 +75,11 @@ pub fn commands(blocks: &[Block]) -> Vec<Shown> {
     all
 }
 
+/// The files that a page shows in blocks of the kind `toml file NAME`, with their names.
+pub fn files(blocks: &[Block]) -> Vec<(&str, &str)> {
+    blocks.iter().filter_map(|block| Some((block.kind.strip_prefix("toml file ")?, block.text.as_str()))).collect()
+}
+
 fn command(line: &str, exit_code: i32) -> Shown {
     let mut words = words(line);
     let into = words.iter().position(|word| word == ">").map(|at| words.split_off(at).swap_remove(1));
