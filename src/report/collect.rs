@@ -5,7 +5,7 @@ use crate::figures::{self, Orbit, Run};
 use crate::load::Loaded;
 use crate::motion::body_path;
 use crate::provenance::Provenance;
-use gaitc_compiler::front::format_quantity;
+use gaitc_compiler::front::{format_number, format_quantity};
 use gaitc_compiler::ir::Observation;
 use gaitc_compiler::show::Sheet;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus};
@@ -88,8 +88,8 @@ fn summary(study: &Study<'_>) -> Vec<String> {
         (Some(_), Some(gait)) => {
             let (stable, other) =
                 if gait.spectral_radius < 1.0 { ("stable", "below") } else { ("not stable", "not below") };
-            let radius = gait.spectral_radius;
-            format!("The gait is {stable}: its spectral radius, {radius:.4}, is {other} 1.")
+            let radius = format_number(gait.spectral_radius);
+            format!("The gait is {stable}: its spectral radius, {radius}, is {other} 1.")
         }
     };
     let warnings = study.warnings.iter().map(|warning| format!("Warning: {warning}"));
