@@ -6,6 +6,12 @@ use crate::picture::{Curve, Event, Level, Panel, Path, Places, Series, Stretches
 use gaitc_compiler::ir::{Joint, Observation};
 use gaitc_runtime::trajectory::Trajectory;
 
+/// With more transitions than this none is drawn: their lines would be a grey area.
+const MOST_EVENTS: usize = 60;
+
+/// Names that find room beside an axis.
+const MOST_NAMES: usize = 2;
+
 /// A run to be drawn.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
@@ -23,24 +29,34 @@ impl Run<'_> {
     #[must_use]
     pub fn over_time(&self, title: &str, levels: &dyn Fn(&Observation) -> Vec<(String, f64)>) -> Series {
         let panels = self.loaded.observations.drawing().map_or(&[][..], |drawing| &drawing.panels);
-        let events = self.trajectory.events.iter().map(|event| Event {
+        let values =
+            |panel: &[Observation]| motion::observe(&self.loaded.observations, panel, self.parameters, self.trajectory);
+        let panels = panels.iter().map(|panel| self.panel(panel, &values(panel), levels)).collect();
+        self.series(title, panels)
+    }
+
+    /// Panels over the time of the run, with its transitions.
+    #[must_use]
+    pub fn series(&self, title: &str, panels: Vec<Panel>) -> Series {
+        let few = self.trajectory.events.len() <= MOST_EVENTS;
+        let events = self.trajectory.events.iter().filter(|_| few).map(|event| Event {
             at: event.time,
             label: self.loaded.spec.transitions.get(event.transition).map_or("", |t| &t.name).to_owned(),
         });
-        Series {
-            title: title.to_owned(),
-            x: label("time", "s"),
-            panels: panels.iter().map(|panel| self.panel(panel, levels)).collect(),
-            events: events.collect(),
-        }
+        Series { title: title.to_owned(), x: label("time", "s"), panels, events: events.collect() }
     }
 
-    fn panel(&self, observations: &[Observation], levels: &dyn Fn(&Observation) -> Vec<(String, f64)>) -> Panel {
-        let values = motion::observe(&self.loaded.observations, observations, self.parameters, self.trajectory);
+    /// Observations of one unit with their values in SI units, one a sample.
+    pub fn panel(
+        &self,
+        observations: &[Observation],
+        values: &[Vec<f64>],
+        levels: &dyn Fn(&Observation) -> Vec<(String, f64)>,
+    ) -> Panel {
         let unit = observations.first().map_or("", |o| o.unit.as_str());
         let names: Vec<&str> = observations.iter().map(|o| o.name.as_str()).collect();
-        let mut panel = Panel { y: label(&names.join(", "), unit), ..Panel::default() };
-        for (index, (observation, values)) in observations.iter().zip(&values).enumerate() {
+        let mut panel = Panel { y: axis(&names, unit), ..Panel::default() };
+        for (index, (observation, values)) in observations.iter().zip(values).enumerate() {
             let levels = levels(observation);
             // A single curve has its name beside the axis.
             let name = if observations.len() == 1 && levels.is_empty() { "" } else { &observation.name };
@@ -50,8 +66,8 @@ impl Run<'_> {
         panel
     }
 
-    /// With a gap between both sides of each transition.
-    fn points(&self, values: &[f64]) -> Vec<(f64, f64)> {
+    /// A value a sample as a curve over time, with a gap between both sides of each transition.
+    pub fn points(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let samples = &self.trajectory.samples;
         let mut points = Vec::with_capacity(values.len());
         for (i, (&t, &value)) in samples.t.iter().zip(values).enumerate() {
@@ -63,19 +79,22 @@ impl Run<'_> {
         points
     }
 
-    /// The path of the body with the points that are held, and the links as they stand at transitions.
+    /// The path of the body with the points that are held, and the links as they stand at both sides of transitions.
     #[must_use]
     pub fn path(&self, title: &str, body: &BodyPath) -> Path {
         let segment = &self.trajectory.samples.segment;
-        let starts = || (0..segment.len()).filter(|&i| i == 0 || segment.get(i - 1) != segment.get(i));
+        let is_end =
+            |i: &usize| *i == 0 || segment.get(i - 1) != segment.get(*i) || segment.get(i + 1) != segment.get(*i);
+        let ends_of_segments = || (0..segment.len()).filter(is_end);
         let finite = |p: (f64, f64)| p.0.is_finite() && p.1.is_finite();
         let held = body.points.iter().filter(|point| point.held).map(|point| {
-            let mut at: Vec<(f64, f64)> = starts().filter_map(|i| point.at.get(i).copied()).collect();
+            let mut at: Vec<(f64, f64)> = ends_of_segments().filter_map(|i| point.at.get(i).copied()).collect();
             at.retain(|&place| finite(place));
+            at.dedup();
             Places { name: point.name.clone(), at }
         });
         let stretches = body.links.iter().map(|link| {
-            let ends = starts().filter_map(|i| Some([body.joint(link[0], i)?, body.joint(link[1], i)?]));
+            let ends = ends_of_segments().filter_map(|i| Some([body.joint(link[0], i)?, body.joint(link[1], i)?]));
             let name = link.map(|joint| joint_name(joint, body)).join(" to ");
             Stretches { name, ends: ends.filter(|ends| ends.iter().all(|&end| finite(end))).collect() }
         });
@@ -88,6 +107,11 @@ impl Run<'_> {
             places: held.collect(),
         }
     }
+}
+
+/// What stands beside an axis: the names as long as they are few.
+fn axis(names: &[&str], unit: &str) -> String {
+    if names.len() <= MOST_NAMES { label(&names.join(", "), unit) } else { unit.to_owned() }
 }
 
 fn joint_name(joint: Joint, body: &BodyPath) -> String {
