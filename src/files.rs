@@ -37,6 +37,16 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     written
 }
 
+/// Whether two names are those of one file, however they are spelt; of files that are not there yet, too.
+pub fn is_same(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| {
+        let place = place_of(path).unwrap_or_else(|_| path.to_owned());
+        let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        fs::canonicalize(folder).map_or(place.clone(), |folder| folder.join(place.file_name().unwrap_or_default()))
+    };
+    whole(a) == whole(b)
+}
+
 /// Whether a file could be written there, found out without touching it: before the work whose result it is to hold.
 ///
 /// # Errors

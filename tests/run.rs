@@ -38,6 +38,29 @@ fn a_result_is_made_again_from_itself() {
     let (_, other) = json(&["run", file, "--period", "2"]);
     assert_eq!(other[KEY]["run"]["period"], "2");
     assert_eq!(stdout(&["--json", "run", file]).1, first);
+    // What is given again wins.
+    let (code, other) = json(&["run", file, "--set", "psi=21 deg", "--tol=1e-10"]);
+    assert_eq!(code, 0);
+    assert_eq!((&other[KEY]["run"]["tol"], &other[KEY]["run"]["set"]["psi"]), (&json!("1e-10"), &json!("21 deg")));
+}
+
+#[test]
+fn pictures_and_pages_are_made_again_from_themselves() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    for (arguments, flag, ending) in [
+        (&["compare", "prescribed_length"][..], "--plot", "svg"),
+        (&["report", "bouncing_ball", "--set", "e=50 %"], "--out", "html"),
+        (&["simulate", "bouncing_ball", "--steps", "2", "--set", "g=5 m/s^2"], "--plot", "png"),
+        (&["gait", "bouncing_ball"], "--plot-map", "svg"),
+    ] {
+        let (first, again) = (at(&format!("first.{ending}")), at(&format!("again.{ending}")));
+        assert_eq!(stdout(&[arguments, &[flag, &first]].concat()).0, 0, "{arguments:?}");
+        assert_eq!(stdout(&["run", &first, flag, &again]).0, 0, "{arguments:?}");
+        assert!(fs::read(&first).unwrap() == fs::read(&again).unwrap(), "{arguments:?}");
+    }
+    let (code, compared) = json(&["compare", "prescribed_length"]);
+    assert_eq!((code, &compared[KEY]["run"]["command"]), (0, &json!("compare")));
 }
 
 #[test]
@@ -165,6 +188,7 @@ fn shells_and_manuals_know_every_command() {
 #[test]
 fn verbose_says_how_long_it_took_and_quiet_nothing() {
     let outside = ["gait", "prescribed_length", "--set", "psi=46 deg"];
-    assert!(stderr(&[&outside[..], &["--verbose"]].concat()).ends_with(" s\n"));
+    let said = stderr(&[&outside[..], &["--verbose"]].concat());
+    assert!(said.ends_with(" s\n") && said.contains("values of prescribed_length: from specs/"), "{said}");
     assert_eq!(stderr(&[&outside[..], &["-q"]].concat()), "");
 }

@@ -79,6 +79,18 @@ fn impacts_that_pile_up_are_zeno() {
     assert_abs_diff_eq!(stop.time, 2.0 * 3.0 / 9.81 / (1.0 - 0.5), epsilon = 1e-8);
 }
 
+/// The ball's map z+ = e z has its only fixed point where bounces have no height. A guess so near to it that it maps onto itself to
+/// any tolerance in m/s is no gait either.
+#[test]
+fn bounces_of_no_height_are_no_gait() {
+    for guess in [3.0, 1e-4, 1e-10, 1e-16] {
+        let outcome = find_gait(&BALL, &GaitRequest::new(&[9.81, 0.8], &[]), &[guess]).unwrap();
+        let GaitStatus::Stopped(stop) = &outcome.status else { panic!("{guess}: {outcome:?}") };
+        assert_eq!(stop.reason, StopReason::Zeno, "{guess}");
+        assert!(outcome.gait.is_none());
+    }
+}
+
 #[test]
 fn rimless_wheel_has_multiplier_mu_squared() {
     let (k, alpha, gamma, mu) = (9.81, 0.3, 0.08, 0.7);

@@ -1,7 +1,7 @@
 //! From flags to numbers: `--set`, `--guess`, `--tol`, `--method`.
 
-use super::InputError;
 use super::args::{ModelArgs, SearchArgs};
+use super::{InputError, output};
 use crate::load::Loaded;
 use gaitc_compiler::front::LONGEST_PERIOD;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
@@ -19,6 +19,8 @@ const METHODS: [(&str, Method); 4] = [
 
 /// The spec's parameter values with every `--set` applied.
 pub(super) fn parameters(loaded: &Loaded, args: &ModelArgs) -> Result<Vec<f64>, InputError> {
+    let from = loaded.file.as_ref().map_or("the build".to_owned(), |file| file.display().to_string());
+    output::note(&format!("values of {}: from {from}", loaded.spec.name));
     let mut values = loaded.parameters();
     let mut seen = Vec::new();
     for text in &args.set {

@@ -1,9 +1,10 @@
 //! The provenance of a command's result: its flags as they were given, and the value of every parameter.
 
+use super::args::Cli;
 use crate::load::Loaded;
 use crate::provenance::Provenance;
 use clap::parser::ValueSource;
-use clap::{Arg, ArgAction, ArgMatches, Command};
+use clap::{Arg, ArgAction, ArgMatches, Command, CommandFactory};
 use gaitc_compiler::front::flags::parse_quantity;
 use gaitc_compiler::front::{format_exact, in_unit};
 use gaitc_compiler::ir::Parameter;
@@ -68,15 +69,25 @@ fn value(arg: &Arg, matches: &ArgMatches) -> Value {
 /// Where the result of a command comes from: its run, with the value of every parameter written out.
 pub(super) fn of(run: &Table, loaded: &Loaded, parameters: &[f64]) -> Provenance {
     let mut run = run.clone();
+    let command = run.get("command").and_then(Value::as_str).unwrap_or_default();
+    let command = Cli::command().find_subcommand(command).cloned();
+    if !command.is_some_and(|command| command.get_arguments().any(|arg| arg.get_long() == Some("set"))) {
+        return of_values(run, loaded);
+    }
     let set = loaded.spec.parameters.iter().zip(parameters);
     let set: Table = set.map(|(p, &value)| (p.name.clone(), exactly(p, value).into())).collect();
     run.insert("set".to_owned(), set.into());
+    of_values(run, loaded)
+}
+
+/// Where a result of a model comes from whose parameters no flag sets.
+fn of_values(run: Table, loaded: &Loaded) -> Provenance {
     let fingerprint = loaded.compiled.info().fingerprint.to_owned();
     Provenance { model: loaded.spec.name.clone(), fingerprint, spec: loaded.digest.clone(), run }
 }
 
 /// A parameter's value so that reading it gives the same bits: in the unit of the spec where that does, else in SI units.
-fn exactly(parameter: &Parameter, value: f64) -> String {
+pub(super) fn exactly(parameter: &Parameter, value: f64) -> String {
     let theirs = format!("{} {}", in_unit(value, &parameter.unit), parameter.unit);
     let same =
         parse_quantity(theirs.trim_end(), parameter.dimension).is_ok_and(|read| read.to_bits() == value.to_bits());

@@ -61,7 +61,7 @@ pub(super) fn run(cli: &Cli, args: &ReportArgs) -> Result<Outcome, InputError> {
         warnings: inputs::outside_range(&loaded, &parameters),
     };
     let made = provenance::of(&cli.run, &loaded, &parameters);
-    let text = page(&contents(&study, made.clone(), command(&loaded, args))?);
+    let text = page(&contents(&study, made.clone(), command(&loaded, &parameters, args))?);
     files::write(&out, text.as_bytes()).map_err(|error| not_written(&out, &error))?;
     let converged = outcome.as_ref().map(|outcome| outcome.status == GaitStatus::Converged);
     if cli.json {
@@ -95,10 +95,13 @@ fn not_written(out: &Path, error: &std::io::Error) -> InputError {
 }
 
 /// The command line that makes the page again, without the file's name.
-fn command(loaded: &Loaded, args: &ReportArgs) -> String {
+fn command(loaded: &Loaded, parameters: &[f64], args: &ReportArgs) -> String {
     let mut words = vec!["gaitc report".to_owned(), loaded.spec.name.clone()];
     let quoted = |text: &String| format!("'{}'", text.replace('\'', "'\\''"));
-    words.extend(args.model.set.iter().map(|text| format!("--set {}", quoted(text))));
+    // However they were given: so a page that is made from a page is the same.
+    let set = loaded.spec.parameters.iter().zip(parameters).filter(|(p, value)| p.value.to_bits() != value.to_bits());
+    let set = set.map(|(p, &value)| format!("{}={}", p.name, provenance::exactly(p, value)));
+    words.extend(set.map(|text| format!("--set {}", quoted(&text))));
     words.extend(args.search.guess.iter().map(|text| format!("--guess {}", quoted(text))));
     words.extend(args.search.tol.map(|tol| format!("--tol {tol:e}")));
     words.extend(args.search.method.as_ref().map(|method| format!("--method {}", quoted(method))));

@@ -38,7 +38,8 @@ struct Read {
 }
 
 pub(super) fn run(cli: &Cli, args: &RunArgs) -> Result<Outcome, InputError> {
-    let read = read(&args.file)?;
+    let mut read = read(&args.file)?;
+    give_way(&mut read.run, &args.arguments);
     let arguments = arguments(&read.run, &args.arguments, &args.file)?;
     let mut again = super::parse(arguments)
         .map_err(|error| InputError(format!("{}: {}", args.file.display(), super::args::message(&error))))?;
@@ -76,6 +77,25 @@ fn read(path: &Path) -> Result<Read, InputError> {
 
 const NOTHING: &str = "there is no run in this file\n  help: give a run file (`command = \"gait\"`, ...) whose name ends in \
                        `.toml`, or a result that gaitc wrote";
+
+/// Takes out of a run what further arguments say otherwise: a flag that is given once, or the same name of a `NAME=VALUE` flag.
+fn give_way(run: &mut Map<String, Value>, further: &[OsString]) {
+    for (i, argument) in further.iter().enumerate() {
+        let Some(flag) = argument.to_str().and_then(|text| text.strip_prefix("--")) else {
+            continue;
+        };
+        let next = further.get(i + 1).and_then(|next| next.to_str()).unwrap_or_default();
+        let (key, value) = flag.split_once('=').unwrap_or((flag, next));
+        let name = value.split_once('=').map(|(name, _)| name.trim());
+        let named = |text: &Value| text.as_str().and_then(|t| t.split_once('=')).map(|(known, _)| known.trim()) == name;
+        match (run.get_mut(key), name) {
+            (Some(Value::Object(all)), Some(name)) => drop(all.remove(name)),
+            (Some(Value::Array(all)), Some(_)) => all.retain(|text| !named(text)),
+            (None | Some(Value::Object(_) | Value::Array(_)), _) => {}
+            (Some(_), _) => drop(run.remove(key)),
+        }
+    }
+}
 
 /// The command line that a run stands for, with further arguments.
 fn arguments(run: &Map<String, Value>, further: &[OsString], path: &Path) -> Result<Vec<OsString>, InputError> {

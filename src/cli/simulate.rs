@@ -192,7 +192,11 @@ fn files(args: &SimulateArgs, in_plane: bool) -> Result<(), InputError> {
         let Some(path) = path else {
             continue;
         };
-        if let Some((other, _)) = all.iter().take(i).find(|(_, earlier)| earlier.as_ref() == Some(path)) {
+        if let Some((other, _)) = all
+            .iter()
+            .take(i)
+            .find(|(_, earlier)| earlier.as_ref().is_some_and(|earlier| crate::files::is_same(earlier, path)))
+        {
             return Err(InputError(format!("{other} and {flag} name the same file\n  help: name two")));
         }
         if flag.starts_with("--plot") {

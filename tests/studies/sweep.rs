@@ -105,6 +105,20 @@ fn an_optimum_at_each_point() {
     }
 }
 
+/// Without a kick the ball has no gait, whatever it is followed from; with the smallest kick it has.
+#[test]
+fn steps_of_no_length_are_no_gaits() {
+    let (code, all) = json(&["sweep", "bouncing_ball", "--over", "kick=0, 1e-12, 1e-6, 1e-3 m/s"]);
+    assert_eq!((code, &all["with_gait"]), (0, &3.into()), "{all:#}");
+    let status: Vec<_> = column(&all, "status").iter().map(|status| status.as_str().unwrap().to_owned()).collect();
+    assert_eq!(status, ["zeno", "converged", "converged", "converged"]);
+    // v = kick/(1 - e)
+    for (i, kick) in [(1, 1e-12), (2, 1e-6), (3, 1e-3)] {
+        let v = column(&all, "v")[i].as_f64().unwrap();
+        assert!((v / kick / 5.0 - 1.0).abs() < 1e-6, "{v} for {kick}");
+    }
+}
+
 #[test]
 fn people_are_told_what_was_found_and_where_it_is() {
     let folder = tempfile::tempdir().unwrap();

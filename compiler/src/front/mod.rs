@@ -35,7 +35,7 @@ pub use names::{is_module_name, suggest};
 pub use observe::Observations;
 pub use parts::Library;
 use parts::Loader;
-pub use si::si_unit;
+pub use si::{si_unit, si_unit_like};
 use std::path::Path;
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@ use super::lower::{Definitions, Lowering, Observed, Place};
 use super::parser::parse_expression;
 use super::spec::{Equation, Spec};
 use crate::dimension::Dimension;
-use crate::front::si_unit;
+use crate::front::si_unit_like;
 use crate::ir::{Drawing, Graph, Observation, Observer};
 use crate::source::SourceMap;
 use std::sync::Arc;
@@ -60,13 +60,15 @@ impl Observations {
         let mut lowering = Lowering::new(names, scope, &definitions, &flag.sources, &mut flag.diagnostics);
         let value = lowering.with_lets(lowered.clone()).equation(&equation, Place::Observation);
         let state = names.states.iter().find(|state| state.name == name);
+        let parameter = names.parameters.iter().find(|parameter| parameter.name == name);
+        let written = state.map(|s| &s.unit).or(parameter.map(|p| &p.unit)).map_or("", String::as_str);
         flag.finish(value.map(|value| {
             let dimension = value.dimension.unwrap_or(Dimension::NONE);
             Observation {
                 name: name.to_owned(),
                 text: state.map_or(name, |state| &state.doc).to_owned(),
                 dimension,
-                unit: si_unit(dimension),
+                unit: si_unit_like(dimension, written),
                 expr: value.node,
             }
         }))

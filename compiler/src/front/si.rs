@@ -12,6 +12,17 @@ pub fn si_unit(dimension: Dimension) -> String {
     named(dimension).map_or_else(|| quotient(dimension), str::to_owned)
 }
 
+/// The SI unit of a quantity that is written in `unit`: of an angle, and of how fast it changes, radians, which the dimension alone does
+/// not tell.
+pub fn si_unit_like(dimension: Dimension, unit: &str) -> String {
+    let angle = ["deg", "rad", "\u{b0}"].iter().any(|angle| unit.contains(angle));
+    match si_unit(dimension).as_str() {
+        "1" if angle => "rad".to_owned(),
+        "s^-1" if angle => "rad/s".to_owned(),
+        si => si.to_owned(),
+    }
+}
+
 /// The unit in words: `dimensionless`, `m/s`, and for one that has a name what it is made of, `N (kg m/s^2)`.
 pub(crate) fn dimension_text(dimension: Dimension) -> String {
     match named(dimension) {

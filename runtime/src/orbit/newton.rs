@@ -109,6 +109,9 @@ pub struct GaitOutcome {
 const OTHER_STEPS: f64 = 1e3;
 /// A step that has become so much shorter than that of the guess is on its way to no length at all.
 const COLLAPSED: f64 = 1e-5;
+/// A step whose length would change by this part of itself on the way to the fixed point has no length there that could be told
+/// from none.
+const VANISHING: f64 = 0.5;
 /// A point that returns to itself within this part of its size is a gait, whatever its step's length.
 const FIXED: f64 = 1e-6;
 /// How often a Newton step is halved.
@@ -144,7 +147,7 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
             Ok(point) => {
                 let usual = *usual.get_or_insert(point.map.duration);
                 let point = search.newton(point, &mut iterations)?;
-                if point.map.duration <= COLLAPSED * usual && !point.is_fixed() {
+                if (point.map.duration <= COLLAPSED * usual || point.vanishes()) && !point.is_fixed() {
                     return Ok(collapsed(point, iterations));
                 }
                 if best.as_ref().is_none_or(|b| point.residual < b.residual) {
@@ -178,6 +181,13 @@ impl Point {
     /// Whether it returns to itself to a small part of its own size, however small that is.
     fn is_fixed(&self) -> bool {
         self.z.iter().zip(&self.map.coordinates).all(|(a, b)| (b - a).abs() <= FIXED * a.abs())
+    }
+
+    /// Whether the step is as short as it is only because the point lies near one where steps have no length: by the first order, what
+    /// is left of the way to the fixed point changes its duration by as much as there is of it.
+    fn vanishes(&self) -> bool {
+        let change = newton_step(self).map_or(0.0, |step| self.map.duration_gradient.dot(&step));
+        change.abs() >= VANISHING * self.map.duration
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Report, words};
 use crate::table::{Column, Table, Values};
-use gaitc_compiler::front::si_unit;
+use gaitc_compiler::front::si_unit_like;
 use gaitc_runtime::study::continuation::{Branch, Diagram, Point};
 
 /// A row: the branch (counted from 1), its period, what it is, the gait.
@@ -31,14 +31,17 @@ impl Report<'_> {
             column("kind", none(), "gait, or how gaits change in kind here", {
                 Values::Text(rows.iter().map(|row| row.kind.to_owned()).collect())
             }),
-            number(&parameter.name, si_unit(parameter.dimension), &parameter.doc, &|p| p.value),
+            number(&parameter.name, si_unit_like(parameter.dimension, &parameter.unit), &parameter.doc, &|p| p.value),
         ];
         for (i, &state) in self.loaded.coordinates().iter().enumerate() {
             let state = &spec.states[state];
-            columns.push(number(&state.name, si_unit(state.dimension), &state.doc, &|p| p.section[i]));
+            columns
+                .push(number(&state.name, si_unit_like(state.dimension, &state.unit), &state.doc, &|p| p.section[i]));
         }
         for (i, measure) in spec.measures.iter().enumerate() {
-            columns.push(number(&measure.name, si_unit(measure.dimension), &measure.doc, &|p| p.measures[i]));
+            columns.push(number(&measure.name, si_unit_like(measure.dimension, &measure.unit), &measure.doc, &|p| {
+                p.measures[i]
+            }));
         }
         columns.push(number("spectral_radius", none(), "largest magnitude of the multipliers", &|p| p.spectral_radius));
         for i in 0..self.loaded.coordinates().len() {

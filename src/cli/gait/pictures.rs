@@ -2,14 +2,17 @@
 
 use super::Report;
 use crate::cli::args::GaitArgs;
-use crate::cli::{InputError, plots};
+use crate::cli::{InputError, output, plots};
 use crate::figures::{self, Orbit};
+use crate::files;
 use crate::provenance::Provenance;
 use gaitc_runtime::orbit::GaitRequest;
 
 /// Refuses files that cannot be written, or are no pictures by their names, before the work begins.
 pub(super) fn check(args: &GaitArgs) -> Result<(), InputError> {
-    if args.plot_map.is_some() && args.plot_map == args.plot_multipliers {
+    if let (Some(map), Some(multipliers)) = (&args.plot_map, &args.plot_multipliers)
+        && files::is_same(map, multipliers)
+    {
         return Err(InputError("--plot-map and --plot-multipliers name the same file\n  help: name two".to_owned()));
     }
     for (flag, path) in [("--plot-multipliers", &args.plot_multipliers), ("--plot-map", &args.plot_map)] {
@@ -27,8 +30,14 @@ pub(super) fn draw(
     (args, request, guess): (&GaitArgs, &GaitRequest<'_>, &[f64]),
     provenance: &Provenance,
 ) -> Result<(), InputError> {
-    if let (Some(path), Some(gait)) = (&args.plot_multipliers, report.gait()) {
-        plots::save("--plot-multipliers", path, &figures::multipliers(report.loaded, gait), provenance);
+    match (&args.plot_multipliers, report.gait()) {
+        (Some(path), Some(gait)) => {
+            plots::save("--plot-multipliers", path, &figures::multipliers(report.loaded, gait), provenance);
+        }
+        (Some(path), None) => {
+            output::warning(&format!("--plot-multipliers {}: not drawn, since there is no gait", path.display()));
+        }
+        (None, _) => {}
     }
     if let Some(path) = &args.plot_map {
         let gait = report.gait().map(|gait| gait.coordinates.as_slice());

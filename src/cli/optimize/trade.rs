@@ -87,7 +87,9 @@ pub(super) fn run(
 
 /// Refuses files that cannot be written, or not as what they are named, before the work begins.
 fn places(args: &OptimizeArgs) -> Result<(), InputError> {
-    if args.out.is_some() && args.out == args.plot {
+    if let (Some(out), Some(plot)) = (&args.out, &args.plot)
+        && files::is_same(out, plot)
+    {
         return Err(InputError("--out and --plot name the same file\n  help: name two".to_owned()));
     }
     if let Some(path) = &args.plot {

@@ -2,7 +2,8 @@
 
 use super::report::Report;
 use crate::table::{Column, Table, Values};
-use gaitc_compiler::front::si_unit;
+use gaitc_compiler::dimension::Dimension;
+use gaitc_compiler::front::si_unit_like;
 
 impl Report<'_> {
     /// One row a sample: times, mode, memory, states, rates, observations, the place of the body.
@@ -26,10 +27,16 @@ impl Report<'_> {
         let width = self.states().len();
         let pick = |rows: &[f64], i: usize| rows.iter().skip(i).step_by(width.max(1)).copied().collect();
         for (i, state) in self.states().iter().enumerate() {
-            columns.push(number(&state.name, &si_unit(state.dimension), &state.doc, pick(&samples.states, i)));
+            columns.push(number(
+                &state.name,
+                &si_unit_like(state.dimension, &state.unit),
+                &state.doc,
+                pick(&samples.states, i),
+            ));
         }
         for (i, state) in self.states().iter().enumerate() {
-            let unit = state.dimension.div(gaitc_compiler::dimension::Dimension::TIME).map(si_unit).unwrap_or_default();
+            let unit =
+                state.dimension.div(Dimension::TIME).map(|rate| si_unit_like(rate, &state.unit)).unwrap_or_default();
             let (name, doc) = (format!("dot({})", state.name), format!("rate of {}", state.name));
             columns.push(number(&name, &unit, &doc, pick(&samples.rates, i)));
         }
@@ -67,7 +74,7 @@ impl Report<'_> {
             columns.push(column(&memory.name, "", &memory.doc, Values::Integer(counts)));
         }
         for (i, state) in self.states().iter().enumerate() {
-            let unit = si_unit(state.dimension);
+            let unit = si_unit_like(state.dimension, &state.unit);
             for (side, doc) in [("before", "before the reset"), ("after", "after the reset")] {
                 let of = |e: &gaitc_runtime::trajectory::Event| {
                     let values = if side == "before" { &e.before } else { &e.after };

@@ -42,7 +42,7 @@ pub(crate) struct SweepArgs {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  gaitc basin prescribed_length --over 'q_theta=-40..0 deg:60' --over 'p_theta=-1..1 m/s:60' \
---out basin.csv\n  gaitc basin compass_walker --over 'theta_st=0..0.4 rad:200' --dir study --resume"
+--out basin.csv\n  gaitc basin compass_walker --over 'theta_st=-0.3..-0.1 rad:50' --dir study --resume"
 )]
 pub(crate) struct BasinArgs {
     #[command(flatten)]

@@ -2,6 +2,7 @@
 
 use crate::load::Loaded;
 use crate::table::{Column, Table, Values};
+use gaitc_compiler::front::si_unit_like;
 
 /// One value of a row.
 pub(super) enum Cell {
@@ -39,23 +40,23 @@ impl Columns {
 
     pub(super) fn parameters(&mut self, loaded: &Loaded, indices: impl IntoIterator<Item = usize>) {
         for i in indices {
-            let (p, si) = (&loaded.spec.parameters[i], loaded.compiled.info().parameters[i].si);
-            self.number((&p.name, "_parameter"), si_unit(si, &p.unit), &p.doc);
+            let p = &loaded.spec.parameters[i];
+            self.number((&p.name, "_parameter"), &si_unit_like(p.dimension, &p.unit), &p.doc);
         }
     }
 
     /// The section coordinates, with `suffix` behind their names.
     pub(super) fn section(&mut self, loaded: &Loaded, suffix: &str) {
         for &i in loaded.coordinates() {
-            let (state, si) = (&loaded.spec.states[i], loaded.compiled.info().states[i].si);
+            let state = &loaded.spec.states[i];
             let name = format!("{}{suffix}", state.name);
-            self.number((&name, "_section"), si_unit(si, &state.unit), &state.doc);
+            self.number((&name, "_section"), &si_unit_like(state.dimension, &state.unit), &state.doc);
         }
     }
 
     pub(super) fn measures(&mut self, loaded: &Loaded) {
-        for (m, known) in loaded.spec.measures.iter().zip(loaded.compiled.info().measures) {
-            self.number((&m.name, "_measure"), si_unit(known.si, &m.unit), &m.doc);
+        for m in &loaded.spec.measures {
+            self.number((&m.name, "_measure"), &si_unit_like(m.dimension, &m.unit), &m.doc);
         }
     }
 
@@ -98,14 +99,4 @@ pub(super) fn integers<'t>(table: &'t Table, name: &str) -> Option<&'t [i64]> {
 pub(super) fn texts<'t>(table: &'t Table, name: &str) -> Option<&'t [String]> {
     let column = table.columns.iter().find(|column| column.name == name)?;
     if let Values::Text(values) = &column.values { Some(values) } else { None }
-}
-
-/// The SI unit of a quantity that the spec gives in `unit`: of an angle, and of how fast it changes, radians.
-pub(super) fn si_unit<'u>(si: &'u str, unit: &str) -> &'u str {
-    let angle = ["deg", "rad", "°"].iter().any(|angle| unit.contains(angle));
-    match si {
-        "1" if angle => "rad",
-        "s^-1" if angle => "rad/s",
-        si => si,
-    }
 }
