@@ -86,7 +86,9 @@ fn ranges() {
     assert_eq!(parse_range("1..45 deg", Dimension::NONE).unwrap(), (1f64.to_radians(), 45f64.to_radians()));
     assert_eq!(parse_range("50 cm..2 m", dimension("m")).unwrap(), (0.5, 2.0));
     assert_eq!(parse_range("2*pi*2 .. 2*pi*4 rad/s", dimension("1/s")).unwrap().1, std::f64::consts::PI * 8.0);
-    assert_eq!(parse_range("-0.5...5", Dimension::NONE).unwrap(), (-0.5, 0.5));
+    assert_eq!(parse_range("-0.5..0.5", Dimension::NONE).unwrap(), (-0.5, 0.5));
+    // A third dot is a slip of the hand more often than the point of `.5`.
+    assert_eq!(told(parse_range("-0.5...5", Dimension::NONE)), told_str("E0101", "a range has two dots", "-0.5...5"));
 }
 
 #[test]

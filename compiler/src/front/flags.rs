@@ -16,6 +16,7 @@ use crate::dimension::Dimension;
 use crate::ir::{Constraint, Model, NodeId};
 use crate::source::{FileId, SourceMap, Span};
 use std::fmt;
+use std::ops::Range;
 
 /// A flag that cannot be understood.
 #[derive(Clone, Debug)]
@@ -123,7 +124,12 @@ pub fn parse_range(text: &str, expected: Dimension) -> Result<(f64, f64), FlagEr
     if let Some(rest) = text.get(dots + 2..).filter(|rest| rest.starts_with('.')) {
         let written = format!("{}..{}", text.get(..dots).unwrap_or(""), rest.trim_start_matches('.'));
         let span = flag.text.span;
-        return flag.error(Code::Syntax, "a range has two dots", span, &format!("write `{written}`"));
+        return flag.error(
+            Code::Syntax,
+            "a range has two dots",
+            span,
+            &format!("write `{written}`; a number that begins with its point needs a 0 there"),
+        );
     }
     let (lower, upper) = (flag.text.part(0..dots), flag.text.part(dots + 2..text.len()));
     let span = flag.text.span;
@@ -180,12 +186,12 @@ pub fn parse_values(text: &str, expected: Dimension) -> Result<Values, FlagError
         // A comma in brackets is one of a function: min(1, 2).
         let piece = text.get(first..end).unwrap_or_default();
         if piece.matches('(').count() <= piece.matches(')').count() {
-            parts.push(flag.text.part(first..end));
+            parts.push(flag.text.part(trimmed(text, first..end)));
             first = end + 1;
         }
     }
     if first <= text.len() {
-        parts.push(flag.text.part(first..text.len()));
+        parts.push(flag.text.part(trimmed(text, first..text.len())));
     }
     let Some((last, others)) = parts.split_last() else { return flag.finish(None) };
     let mut quantities = flag.quantities();
@@ -202,6 +208,13 @@ pub fn parse_values(text: &str, expected: Dimension) -> Result<Values, FlagError
         Some(Values::List(values))
     })();
     flag.finish(values)
+}
+
+/// A range of bytes of a text without the blanks at its ends.
+fn trimmed(text: &str, range: Range<usize>) -> Range<usize> {
+    let part = text.get(range.clone()).unwrap_or("");
+    let start = range.start + part.len() - part.trim_start().len();
+    start..start + part.trim().len()
 }
 
 /// Splits `NAME=REST`.
