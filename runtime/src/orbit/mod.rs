@@ -4,10 +4,12 @@
 //! them are smaller than 1 in magnitude.
 
 pub(crate) mod follow;
+mod message;
 mod multiple;
 mod multipliers;
 mod newton;
 mod shooting;
 
+pub use message::why;
 pub use multipliers::{multipliers, spectral_radius};
-pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait, why};
+pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};

@@ -6,7 +6,6 @@
 
 use super::multipliers::{multipliers, spectral_radius};
 use crate::event::NOTHING;
-use crate::model::ModelInfo;
 use crate::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Open, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
 };
@@ -147,7 +146,8 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
             Ok(point) => {
                 let usual = *usual.get_or_insert(point.map.duration);
                 let point = search.newton(point, &mut iterations)?;
-                if (point.map.duration <= COLLAPSED * usual || point.vanishes()) && !point.is_fixed() {
+                let vanishes = || point.residual <= request.tolerance && point.vanishes();
+                if (point.map.duration <= COLLAPSED * usual || vanishes()) && !point.is_fixed() {
                     return Ok(collapsed(point, iterations));
                 }
                 if best.as_ref().is_none_or(|b| point.residual < b.residual) {
@@ -186,6 +186,9 @@ impl Point {
     /// Whether the step is as short as it is only because the point lies near one where steps have no length: by the first order, what
     /// is left of the way to the fixed point changes its duration by as much as there is of it.
     fn vanishes(&self) -> bool {
+        if self.z.is_empty() {
+            return false;
+        }
         let change = newton_step(self).map_or(0.0, |step| self.map.duration_gradient.dot(&step));
         change.abs() >= VANISHING * self.map.duration
     }
@@ -307,7 +310,7 @@ impl Search<'_> {
             (_, Some(stop)) if gait.is_none() => GaitStatus::Stopped(stop),
             _ => GaitStatus::NotConverged,
         };
-        let message = message(info, &status, residual, self.request.tolerance);
+        let message = super::message::message(info, &status, residual, self.request.tolerance);
         Ok(GaitOutcome { status, message, gait, residual, iterations })
     }
 
@@ -371,33 +374,4 @@ fn newton_step(point: &Point) -> Option<DVector<f64>> {
     let svd = matrix.svd(true, true);
     let cut = 1e-12 * svd.singular_values.max();
     svd.solve(&right, cut).ok().filter(|step| step.iter().all(|v| v.is_finite()))
-}
-
-fn message(info: &ModelInfo, status: &GaitStatus, residual: f64, tolerance: f64) -> String {
-    match status {
-        GaitStatus::Open(open) => format!("no gait: {}", open.describe(info)),
-        GaitStatus::Converged => format!("the step maps onto itself to {residual:.1e}"),
-        GaitStatus::Stopped(stop) => format!(
-            "the map has no next section crossing from the guess: {} after {:.4} s; try another guess or other parameters",
-            why(stop.reason),
-            stop.time
-        ),
-        GaitStatus::NotConverged => format!(
-            "no fixed point found: the residual stays at {residual:.1e}, above the tolerance {tolerance:.1e}; try another guess, or follow the gait from parameters where it is known"
-        ),
-    }
-}
-
-/// Why a run has no next step, in words.
-pub fn why(reason: StopReason) -> &'static str {
-    match reason {
-        StopReason::NoEvent => "no transition fired within the time limit",
-        StopReason::StepLimit => "the limit on steps was reached",
-        StopReason::StepTooSmall => "the error control asked for a step below rounding",
-        StopReason::NotFinite => "a value was not finite, the run left the model's domain",
-        StopReason::Inconsistent => {
-            "the state contradicts the equations where the mass matrix is singular (does the reset lead to a consistent state?)"
-        }
-        StopReason::Zeno => "transitions piled up in time, or a step took no time",
-    }
 }
