@@ -166,7 +166,9 @@ fn files_are_written() {
     let mut lines = samples.lines();
     assert!(lines.next().unwrap().starts_with("# {"));
     let header = lines.next().unwrap();
-    for column in ["t [s]", "mode", "n", "q_theta", "dot(p_theta) [m/s^2]", "rho_a [N]", "v_y [m/s]", "body_y [m]"] {
+    for column in
+        ["t [s]", "mode", "n", "q_theta [rad]", "dot(p_theta) [m/s^2]", "rho_a [N]", "v_y [m/s]", "body_y [m]"]
+    {
         assert!(header.split(',').any(|name| name == column), "{column} is not in {header}");
     }
     let (_, all) = json(&run);

@@ -189,8 +189,9 @@ impl Point {
         if self.z.is_empty() {
             return false;
         }
-        let change = newton_step(self).map_or(0.0, |step| self.map.duration_gradient.dot(&step));
-        change.abs() >= VANISHING * self.map.duration
+        let gradient = self.map.duration_gradient.iter();
+        let change: f64 = newton_step(self).map_or(0.0, |step| gradient.zip(&step).map(|(slope, z)| slope * z).sum());
+        change.abs() > VANISHING * self.map.duration
     }
 }
 
