@@ -1,6 +1,6 @@
 //! Pictures of results: what is drawn is data with labels and units, and knows no model.
 //!
-//! Each kind of picture is plain data and is drawn onto a [`Canvas`] by [`Picture::draw`]; [`write`] makes an SVG or a PNG of
+//! Each kind of picture is plain data and is drawn onto a [`Canvas`] by [`Picture::draw`]; [`write()`] makes an SVG or a PNG of
 //! it, by the name of the file. Both carry their provenance: an SVG in its `metadata` element, a PNG in its text chunk
 //! `gaitc`. The same data gives the same bytes. Labels name quantity and unit, see [`label`].
 //!

@@ -123,7 +123,7 @@ pub fn write(table: &Table, path: &Path, provenance: &Provenance) -> Result<(), 
     Ok(files::write(path, &bytes(table, Format::of(path)?, provenance)?)?)
 }
 
-/// The bytes that [`write`] writes.
+/// The bytes that [`write()`] writes.
 ///
 /// # Errors
 /// When columns differ in length or share a name.
