@@ -16,3 +16,4 @@ pub mod report;
 pub mod study;
 pub mod table;
 pub mod verify;
+pub mod words;

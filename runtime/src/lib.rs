@@ -7,6 +7,7 @@ pub(crate) mod collocation;
 pub(crate) mod event;
 pub mod hybrid;
 pub(crate) mod integrate;
+pub mod interrupt;
 pub mod model;
 pub mod ode;
 pub mod optimize;

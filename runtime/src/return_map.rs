@@ -6,13 +6,14 @@
 
 pub use crate::also_zero::{AlsoZeroAt, Passage};
 pub use crate::closing::Open;
+use crate::interrupt::Interrupt;
 use crate::model::ModelInfo;
 pub use crate::replay::{Images, Piece, PieceEnd, Plan, Points, SecondOrder};
 use crate::trajectory::{FollowRequest, Trajectory};
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
-/// How accurately and how far to integrate.
+/// How accurately and how far to integrate, and who may end it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Relative tolerance of the local error.
@@ -25,11 +26,20 @@ pub struct Accuracy {
     pub step_limit: usize,
     /// How to integrate.
     pub method: Method,
+    /// A request to stop, looked at before every step.
+    pub interrupt: Interrupt,
 }
 
 impl Default for Accuracy {
     fn default() -> Self {
-        Self { relative: 1e-12, absolute: 1e-13, time_limit: 100.0, step_limit: 100_000, method: Method::Automatic }
+        Self {
+            relative: 1e-12,
+            absolute: 1e-13,
+            time_limit: 100.0,
+            step_limit: 100_000,
+            method: Method::Automatic,
+            interrupt: Interrupt::default(),
+        }
     }
 }
 
@@ -182,6 +192,8 @@ pub enum StopReason {
     Inconsistent,
     /// Transitions pile up in time (or a step takes no time at all).
     Zeno,
+    /// Somebody asked to stop: nothing is said of the run.
+    Interrupted,
 }
 
 impl StopReason {
@@ -194,6 +206,7 @@ impl StopReason {
             Self::NotFinite => "not_finite",
             Self::Inconsistent => "inconsistent",
             Self::Zeno => "zeno",
+            Self::Interrupted => "interrupted",
         }
     }
 }

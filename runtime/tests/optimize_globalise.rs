@@ -235,7 +235,7 @@ fn an_interruption_leaves_the_best_gait_so_far() {
             let (a, b) = (-p[0] + 1.0, p[1] - p[0] * p[0]);
             a * a + b * b * 100.0
         });
-        let objective = Objective::Expression(Box::new(Stopping(valley, interrupt.clone(), evaluations.into())));
+        let objective = Objective::Expression(Box::new(Stopping(valley, interrupt, evaluations.into())));
         let mut problem = problem(&map, Sense::Minimize, objective, &[-1.2, 0.5], &[(-2.0, 2.0), (-0.9, 0.99)]);
         problem.settings.starts = 4;
         problem.settings.threads = 1;

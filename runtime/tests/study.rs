@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed expectation is a failed test
 
 use approx::assert_abs_diff_eq;
+use gaitc_runtime::interrupt::Interrupt;
 use gaitc_runtime::model::{ModelInfo, Quantity};
-use gaitc_runtime::optimize::Interrupt;
 use gaitc_runtime::orbit::{GaitRequest, GaitStatus};
 use gaitc_runtime::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Method, RequestError, ReturnMap, Sensitivity, Statistics, Stop,
@@ -116,7 +116,6 @@ fn a_gait_that_is_far_away_is_followed() {
         start: vec![0.0],
         period: 1,
         accuracy: Accuracy::default(),
-        interrupt: Interrupt::default(),
     };
     let gaits = Gaits::new(&map, reference.clone()).unwrap();
     for (p, route) in [(0.9, Route::Start), (7.0, Route::Followed), (-30.0, Route::Followed)] {
@@ -142,7 +141,6 @@ fn basins_of_the_logistic_map() {
             request: GaitRequest { measures: false, ..GaitRequest::new(&parameters, &[]) },
             steps: 2000,
             periods,
-            interrupt: Interrupt::default(),
         };
         let starts: Vec<Vec<f64>> = starts.iter().map(|start| vec![*start]).collect();
         let basin = Basin::new(&map, settings, &[0.3]).unwrap();

@@ -10,8 +10,12 @@ mod trajectory;
 use approx::assert_abs_diff_eq;
 use common::toys::{BALL, CHATTER, DIP, DOMAIN, FALLING, FORCED, JUMP, PILING, PULSE, TWINS, WHEEL};
 use common::{check_derivatives, completed, request, stopped};
+use gaitc_runtime::interrupt::Interrupt;
 use gaitc_runtime::orbit::{GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{Accuracy, MapRequest, RequestError, ReturnMap, Sensitivity, StopReason, Warning};
+use gaitc_runtime::return_map::{
+    Accuracy, Images, MapRequest, Points, RequestError, ReturnMap, Sensitivity, StopReason, Warning,
+};
+use std::time::Duration;
 
 const ALL: Sensitivity<'static> = Sensitivity::CoordinatesAndParameters(&[0, 1]);
 
@@ -115,6 +119,36 @@ fn a_wheel_that_is_too_slow_has_no_event() {
     let accuracy = Accuracy { step_limit: 3, ..Accuracy::default() };
     let stop = stopped(&WHEEL, &MapRequest { accuracy, ..request(&[1.6], &p, Sensitivity::Coordinates) });
     assert_eq!(stop.reason, StopReason::StepLimit);
+}
+
+/// It would rock on for a hundred million seconds.
+#[test]
+fn somebody_who_asks_to_stop_is_heard_in_the_middle_of_a_map() {
+    let interrupt = Interrupt::new();
+    let accuracy = Accuracy { time_limit: 1e8, step_limit: usize::MAX, interrupt, ..Accuracy::default() };
+    let p = [9.81, 0.3, 0.08, 0.7];
+    let ask = MapRequest { accuracy, ..request(&[0.2], &p, Sensitivity::Coordinates) };
+    let stop = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            std::thread::sleep(Duration::from_millis(20));
+            interrupt.request()
+        });
+        stopped(&WHEEL, &ask)
+    });
+    assert_eq!(stop.reason, StopReason::Interrupted);
+    assert!(stop.time > 0.0 && stop.time < 1e7, "{}", stop.time);
+    // Nor are plans replayed: their lanes are declined.
+    let usual = request(&[1.6], &p, Sensitivity::Coordinates);
+    let later = Interrupt::new();
+    let (_, plan) =
+        WHEEL.plan(&MapRequest { accuracy: Accuracy { interrupt: later, ..usual.accuracy }, ..usual }).unwrap();
+    let (plan, mut images) = (plan.unwrap(), Images::default());
+    let points = Points { coordinates: &[1.6, 1.6001, 1.5999, 1.6], parameters: &p };
+    WHEEL.replay(&plan, points, &mut images).unwrap();
+    assert_eq!(images.held, [true; 4]);
+    later.request();
+    WHEEL.replay(&plan, points, &mut images).unwrap();
+    assert_eq!(images.held, [false; 4]);
 }
 
 #[test]

@@ -90,7 +90,7 @@ pub(super) fn run(cli: &Cli, args: &OptimizeArgs) -> Result<Outcome, InputError>
 /// What the first Ctrl-C requests; the second ends the program at once.
 pub(super) fn on_interrupt() -> Interrupt {
     let interrupt = Interrupt::new();
-    let requested = interrupt.clone();
+    let requested = interrupt;
     let set = ctrlc::set_handler(move || {
         if requested.request() {
             std::process::exit(i32::from(INTERRUPTED));

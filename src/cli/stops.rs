@@ -29,5 +29,6 @@ pub(super) fn explanation(reason: StopReason) -> (&'static str, &'static str) {
             "transitions pile up in time, or a step takes no time",
             "look at the events (--events FILE.csv); a guard that is zero at the start or just after a reset fires at once",
         ),
+        StopReason::Interrupted => ("it was interrupted", "run the same command again"),
     }
 }

@@ -22,7 +22,7 @@ pub struct Basin {
     pub columns: usize,
     /// Class of each cell as an index into `classes`: rows from below, each from the left. Other indices stay empty.
     pub cells: Vec<usize>,
-    /// Names for the legend.
+    /// Names for the legend, which lists those that have cells.
     pub classes: Vec<String>,
     /// Marked places, such as gaits.
     pub marks: Vec<Mark>,
@@ -59,7 +59,7 @@ impl Picture for Basin {
 
 impl Basin {
     fn legend(&self) -> Vec<(String, Sample)> {
-        let named = self.classes.iter().enumerate();
+        let named = self.classes.iter().enumerate().filter(|(i, _)| self.cells.contains(i));
         named.map(|(i, name)| (name.clone(), Sample::Cell(ink(i)))).collect()
     }
 

@@ -64,8 +64,8 @@ pub enum StoreError {
     },
     /// Something cannot be written.
     #[error(
-        "cannot write `{}`: {error}\n  help: make room or give write permission, then run the same command with --resume: what is \
-         complete is kept",
+        "cannot write `{}`: {error}\n  help: make room or give write permission, then run the same command again, a sweep or a basin \
+         with --resume: what is complete is kept",
         path.display()
     )]
     Write {
@@ -73,6 +73,23 @@ pub enum StoreError {
         path: PathBuf,
         /// What the system said.
         error: Error,
+    },
+    /// One folder is named twice.
+    #[error("`{}` is given twice\n  help: name each folder once", .0.display())]
+    Twice(PathBuf),
+    /// Two folders have the same points, and not the same of them.
+    #[error(
+        "`{}` and `{}` both have points {points}, and do not agree on them\n  help: name only one of the two; shards that were computed \
+         on processors of different kinds may differ in the last bit",
+        one.display(), other.display()
+    )]
+    Disagree {
+        /// The first folder.
+        one: PathBuf,
+        /// The second.
+        other: PathBuf,
+        /// The first points in which they differ.
+        points: String,
     },
     /// Shards do not make a whole.
     #[error("{0}")]
@@ -147,6 +164,17 @@ impl Folder {
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Whether it is the same folder, however it is spelt.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let real = |folder: &Self| folder.path.canonicalize().unwrap_or_else(|_| folder.path.clone());
+        real(self) == real(other)
+    }
+
+    /// Whether another process is at work in it, as far as that can be seen.
+    pub fn is_busy(&self) -> bool {
+        Lock::is_held(&self.path)
     }
 
     /// The rows of a chunk, if it is there whole.

@@ -42,4 +42,11 @@ impl Lock {
         }
         Ok(Self { _file: file })
     }
+
+    /// Whether somebody holds the lock of a folder, as far as that can be seen.
+    pub(super) fn is_held(folder: &Path) -> bool {
+        let path = folder.join("lock");
+        super::folder::is_own(&path).is_ok()
+            && File::open(&path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    }
 }

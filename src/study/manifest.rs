@@ -160,6 +160,16 @@ impl Manifest {
         (self.shard.index.saturating_sub(1)..self.chunks()).step_by(step)
     }
 
+    /// Whether a chunk is one of this shard.
+    pub fn owns(&self, chunk: u64) -> bool {
+        chunk < self.chunks() && chunk % self.shard.count.max(1) == self.shard.index.saturating_sub(1)
+    }
+
+    /// The manifest of the whole study.
+    pub fn whole(&self) -> Self {
+        Self { shard: Shard::default(), ..self.clone() }
+    }
+
     /// How many points the chunks of this shard have.
     pub fn own_points(&self) -> u64 {
         self.own().map(|chunk| self.rows(chunk)).map(|rows| rows.end - rows.start).sum()
@@ -173,7 +183,7 @@ impl Manifest {
 
     /// A hash of what is studied, the same for all shards.
     pub fn hash(&self) -> [u8; 32] {
-        Sha256::digest(Self { shard: Shard::default(), ..self.clone() }.text()).into()
+        Sha256::digest(self.whole().text()).into()
     }
 
     /// Reads a file.
@@ -209,8 +219,8 @@ impl Manifest {
 
     /// The first thing in which another study differs, in words; `None` where it is the same (shards may differ).
     pub fn difference(&self, other: &Self) -> Option<String> {
-        let own = serde_json::to_value(Self { shard: Shard::default(), ..self.clone() }).unwrap_or_default();
-        let others = serde_json::to_value(Self { shard: Shard::default(), ..other.clone() }).unwrap_or_default();
+        let own = serde_json::to_value(self.whole()).unwrap_or_default();
+        let others = serde_json::to_value(other.whole()).unwrap_or_default();
         // The run says it best.
         let run = |value: &Value| value.pointer("/provenance/run").cloned().unwrap_or_default();
         let program = |value: &Value| value.pointer("/provenance/version").cloned().unwrap_or_default();

@@ -15,4 +15,4 @@ mod merge;
 pub use finish::finish;
 pub use folder::{Folder, StoreError};
 pub use manifest::{Kind, MOST_POINTS, Manifest, Shard};
-pub use merge::merge;
+pub use merge::{Merged, merge};

@@ -7,6 +7,7 @@ mod basin;
 mod common;
 mod dask;
 mod interrupted;
+mod merge;
 mod refused;
 mod simulate;
 mod sweep;

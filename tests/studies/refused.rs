@@ -79,24 +79,6 @@ fn nothing_outside_the_folder_is_written() {
 }
 
 #[test]
-fn shards_that_do_not_make_a_whole_are_not_merged() {
-    let folder = tempfile::tempdir().unwrap();
-    let [one, two, other] = ["one", "two", "other"].map(|name| at(folder.path(), name));
-    let shard = |dir: &str, shard: &str, flags: &[&str]| {
-        done(&[&GRID[..], &["--chunk", "4", "--dir", dir, "--shard", shard], flags].concat());
-    };
-    shard(&one, "1/2", &[]);
-    shard(&two, "2/2", &[]);
-    shard(&other, "2/2", &["--set", "l_s=0.1 m"]);
-    let out = at(folder.path(), "all.csv");
-    refused(&["merge", &one, "--out", &out], &["3 of 6 chunks are missing: points 4 to 7, 12 to 15, 20 to 23", "2/2"]);
-    refused(&["merge", &one, &other, "--out", &out], &["another study", "`set.l_s`"]);
-    refused(&["merge", &one, &at(folder.path(), "none"), "--out", &out], &["cannot read", "study.json"]);
-    assert!(!folder.path().join("all.csv").exists());
-    done(&["merge", &one, &two, "--out", &out]);
-}
-
-#[test]
 fn what_cannot_be_written_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = at(folder.path(), "file");

@@ -143,6 +143,9 @@ where
     pub(crate) fn advance(&mut self) -> Result<(), StopReason> {
         let mut failure = StopReason::StepTooSmall;
         for _ in 0..MOST_REJECTIONS {
+            if self.accuracy.interrupt.requested() {
+                return Err(StopReason::Interrupted);
+            }
             let rest = self.deadline - self.time();
             if rest <= f64::EPSILON * self.deadline {
                 return Err(StopReason::NoEvent);

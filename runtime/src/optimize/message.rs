@@ -296,6 +296,7 @@ pub(super) fn stop_text(stop: &Stop) -> String {
         StopReason::NotFinite => "the run leaves the domain where the model is defined",
         StopReason::Inconsistent => "the state contradicts the equations where the mass matrix is singular",
         StopReason::Zeno => "transitions pile up in time",
+        StopReason::Interrupted => "it was interrupted",
     };
     format!("{why} (after {:.6} s)", stop.time)
 }

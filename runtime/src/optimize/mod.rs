@@ -17,6 +17,7 @@
 
 mod active_set;
 mod attempt;
+mod best;
 mod characteristic;
 mod confirm;
 mod conflict;
@@ -27,7 +28,6 @@ mod escape;
 mod factors;
 mod gait;
 mod independent;
-mod interrupt;
 mod jacobian_derivative;
 mod jury;
 mod kkt;
@@ -59,8 +59,8 @@ mod unchanging;
 mod variables;
 mod verdict;
 
+pub use crate::interrupt::Interrupt;
 pub use conflict::{Conflict, Reached};
-pub use interrupt::Interrupt;
 pub use optima::Optimum;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,

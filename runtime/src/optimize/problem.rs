@@ -3,8 +3,8 @@
 //! minimise or maximise F(m(z, p), p) over the varied parameters and the section coordinates z, subject to P(z; p) = z,
 //! lower <= p_j <= upper, margins >= 0 and `spectral_radius <= r`.
 
-use super::interrupt::Interrupt;
 use super::solver::{Clarabel, Tally};
+use crate::interrupt::Interrupt;
 use crate::return_map::{Accuracy, RequestError, ReturnMap};
 use thiserror::Error;
 

@@ -8,7 +8,7 @@
 mod trial;
 
 use super::active_set::refine;
-use super::interrupt::Best;
+use super::best::Best;
 use super::kkt::{Kkt, infeasibility, kkt};
 use super::linearisation::Linearisation;
 use super::problem::ProblemError;

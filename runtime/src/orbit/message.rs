@@ -31,5 +31,6 @@ pub fn why(reason: StopReason) -> &'static str {
             "the state contradicts the equations where the mass matrix is singular (does the reset lead to a consistent state?)"
         }
         StopReason::Zeno => "transitions piled up in time, or a step took no time",
+        StopReason::Interrupted => "it was interrupted",
     }
 }

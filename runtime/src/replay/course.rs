@@ -150,6 +150,10 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         let to_event = usize::from(!leg.end.surfaces.is_empty());
         let sizes = leg.sizes.get(..leg.sizes.len().saturating_sub(to_event)).unwrap_or(&[]);
         for (step, size) in sizes.iter().enumerate() {
+            if self.plan.accuracy.interrupt.requested() {
+                self.valid = S::mask(false);
+                return;
+            }
             let h = self.scale.times(*size);
             let (end, rates) = self.step(h);
             self.check_error(h, &end);

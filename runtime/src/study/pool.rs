@@ -1,6 +1,6 @@
 //! Threads that share the points of a study.
 
-use crate::optimize::Interrupt;
+use crate::interrupt::Interrupt;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::ops::Range;
@@ -29,8 +29,8 @@ impl Pool {
         work: impl Fn(u64) -> Result<T, E> + Sync + Send,
     ) -> Result<Option<Vec<T>>, E> {
         let one = |number| if interrupt.requested() { Ok(None) } else { work(number).map(Some) };
-        let all: Vec<Option<T>> = self.0.install(|| numbers.into_par_iter().map(one).collect::<Result<_, E>>())?;
-        // What was begun before the request may be done, or be cut short.
-        Ok(if interrupt.requested() { None } else { all.into_iter().collect() })
+        let all: Result<Vec<Option<T>>, E> = self.0.install(|| numbers.into_par_iter().map(one).collect());
+        // What was begun before the request may be done, or be cut short: neither its results nor its errors count.
+        if interrupt.requested() { Ok(None) } else { Ok(all?.into_iter().collect()) }
     }
 }

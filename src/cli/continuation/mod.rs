@@ -4,6 +4,7 @@ mod args;
 mod data;
 mod drawing;
 mod json;
+mod progress;
 mod shown;
 mod text;
 mod windows;
@@ -17,6 +18,7 @@ use crate::files;
 use crate::load::{Loaded, load};
 use crate::provenance::Provenance;
 use crate::table;
+use crate::words::counted;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, parse_range};
 use gaitc_compiler::front::{LONGEST_PERIOD, format_quantity};
 use gaitc_compiler::ir::Parameter;
@@ -57,9 +59,11 @@ pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError>
     let tolerance = search.tolerance.max(10.0 * accuracy.relative);
     let gait = GaitRequest { period: args.period, accuracy, tolerance, ..search };
     let settings = settings(args, parameter, range)?;
-    let interrupt = settings.interrupt.clone();
+    let interrupt = settings.interrupt;
     let request = ContinuationRequest { gait, parameter: over, range, settings };
     let outcome = follow(loaded.compiled, &request, &guess)?;
+    // With it goes the display of its progress.
+    drop(request);
     let provenance = provenance::of(&cli.run, &loaded, &parameters);
     let report = Report { loaded: &loaded, parameters: &parameters, over, range, warnings: &warnings, shown, args };
     match &outcome {
@@ -142,11 +146,7 @@ impl Report<'_> {
             () if ends().any(|end| *end == EndReason::PointLimit) => "point_limit",
             () => "complete",
         };
-        let count = |count: usize, what: &str| match count {
-            1 => format!("1 {what}"),
-            _ if what.ends_with("ch") => format!("{count} {what}es"),
-            _ => format!("{count} {what}s"),
-        };
+        let count = |count: usize, what: &str| counted(count as u64, what);
         let message = format!(
             "{} of gaits, {}, {}",
             count(diagram.branches.len(), "branch"),
@@ -231,6 +231,7 @@ fn settings(args: &ContinueArgs, parameter: &Parameter, (lower, upper): (f64, f6
         doublings: args.doublings,
         branches: args.branches,
         interrupt: optimize::on_interrupt(),
+        observer: progress::observer(args, parameter),
         ..Settings::default()
     };
     if let Some(text) = &args.step {

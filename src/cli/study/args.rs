@@ -67,14 +67,19 @@ pub(crate) struct BasinArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  gaitc merge part1 part2 part3 --out gaits.parquet")]
+#[command(
+    after_help = "Examples:\n  gaitc merge part1 part2 part3 --out gaits.parquet\n  gaitc merge part1 part2 part3 --dir whole"
+)]
 pub(crate) struct MergeArgs {
     /// Folders of the shards of one study
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
     /// Write the table here: CSV or Parquet, by the ending
-    #[arg(long, value_name = "FILE", required = true)]
-    pub(crate) out: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "dir")]
+    pub(crate) out: Option<PathBuf>,
+    /// Keep the whole study in this folder, as if it had been computed there: chunks and tables
+    #[arg(long, value_name = "DIR")]
+    pub(crate) dir: Option<PathBuf>,
 }
 
 /// Where a study is kept, and how it is computed. None of it changes the result.

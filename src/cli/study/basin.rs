@@ -14,6 +14,7 @@ use crate::table::Table;
 use gaitc_compiler::front::flags::{parse_assignment, parse_values};
 use gaitc_compiler::front::{LONGEST_PERIOD, format_quantity};
 use gaitc_runtime::orbit::GaitRequest;
+use gaitc_runtime::return_map::Accuracy;
 use gaitc_runtime::study::basin::{Basin, End, Fate, Settings};
 use gaitc_runtime::study::{Design, Pool};
 use serde_json::{Map, Value, json};
@@ -57,16 +58,18 @@ pub(crate) fn run(cli: &Cli, args: &BasinArgs) -> Result<Outcome, InputError> {
     let provenance = provenance::of(&cli.run, &loaded, &parameters);
     let columns = starts.columns();
     let manifest = Manifest::new(Kind::Basin, &columns, points, &provenance);
-    let (pool, interrupt) = (Pool::new(args.storage.threads.unwrap_or(0))?, on_interrupt());
+    let pool = Pool::new(args.storage.threads.unwrap_or(0))?;
     let memory = loaded.memory();
-    let accuracy = inputs::accuracy(&args.search)?;
+    let interrupt = on_interrupt();
+    let accuracy = Accuracy { interrupt, ..inputs::accuracy(&args.search)? };
     let request = GaitRequest::new(&parameters, &memory);
     let tolerance = request.tolerance.max(10.0 * accuracy.relative);
     let request = GaitRequest { accuracy, tolerance, ..request };
     let (steps, periods) = (args.steps, args.periods);
-    let settings = Settings { request, steps, periods, interrupt: interrupt.clone() };
+    let settings = Settings { request, steps, periods };
     let basin = Basin::new(loaded.compiled, settings, &starts.guess)?;
-    let asked = Asked { manifest: manifest.clone(), provenance: &provenance, storage: &args.storage, chunk: STARTS };
+    let asked =
+        Asked { manifest: manifest.clone(), provenance: &provenance, storage: &args.storage, chunk: STARTS, interrupt };
     let ran = asked.run(|numbers| {
         let (first, count) = (numbers.start, numbers.end - numbers.start);
         let group = |group: u64| {

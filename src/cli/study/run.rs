@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::provenance::Provenance;
 use crate::study::{Folder, MOST_POINTS, Manifest, Shard, finish};
 use crate::table::{self, Format, Table};
+use gaitc_runtime::interrupt::Interrupt;
 use std::ops::Range;
 use std::path::Path;
 
@@ -23,6 +24,8 @@ pub(super) struct Asked<'a> {
     pub(super) storage: &'a StorageArgs,
     /// Points of a chunk, where nobody says otherwise.
     pub(super) chunk: u64,
+    /// Ends the work early.
+    pub(super) interrupt: Interrupt,
 }
 
 /// How it ended.
@@ -90,11 +93,15 @@ impl Asked<'_> {
             Some(path) => Some(Folder::open(path, self.manifest.clone(), self.storage.resume)?),
             None => None,
         };
-        let progress = Progress::new(self.manifest.own_points(), "points", output::is_quiet());
+        let progress = Progress::new(self.manifest.own_points(), "point", output::is_quiet());
         let (mut all, mut done) = (self.manifest.table(), 0);
         for chunk in self.manifest.own() {
             let numbers = self.manifest.rows(chunk);
             let count = numbers.end - numbers.start;
+            // Chunks that are there already are read, many of them perhaps.
+            if self.interrupt.requested() {
+                return Ok(Ran::Interrupted(done));
+            }
             let known = folder.as_ref().map_or(Ok(None), |folder| folder.chunk(chunk))?;
             if let Some(known) = known {
                 progress.skip(count);
@@ -120,17 +127,21 @@ impl Asked<'_> {
         if self.manifest.shard != Shard::default() {
             return Ok(());
         }
-        if let Some(folder) = folder {
-            for (format, ending) in [(Format::Csv, "csv"), (Format::Parquet, "parquet")] {
-                let bytes = table::bytes(table, format, self.provenance).map_err(|e| InputError(e.to_string()))?;
-                folder.put(&format!("{}.{ending}", self.manifest.kind.name()), &bytes)?;
-            }
-        }
+        folder.map_or(Ok(()), |folder| put_tables(folder, table, self.provenance))?;
         if let Some(path) = &self.storage.out {
             save(table, path, self.provenance);
         }
         Ok(())
     }
+}
+
+/// Writes the tables of a whole study into its folder.
+pub(super) fn put_tables(folder: &Folder, table: &Table, provenance: &Provenance) -> Result<(), InputError> {
+    for (format, ending) in [(Format::Csv, "csv"), (Format::Parquet, "parquet")] {
+        let bytes = table::bytes(table, format, provenance).map_err(|e| InputError(e.to_string()))?;
+        folder.put(&format!("{}.{ending}", folder.manifest().kind.name()), &bytes)?;
+    }
+    Ok(())
 }
 
 /// Writes `--out`. That it cannot be written (the disk is full) is said, and does not keep the rest from being shown.

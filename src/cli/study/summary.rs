@@ -6,6 +6,7 @@ use crate::cli::{Outcome, output};
 use crate::provenance::Provenance;
 use crate::study::{Manifest, Shard};
 use crate::table::{Table, Values};
+use crate::words::counted;
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -56,8 +57,12 @@ impl Summary<'_> {
             output::result(self.provenance, Value::Object(all));
         } else {
             let part = if shard == Shard::default() { String::new() } else { format!(", shard {shard} of {points}") };
-            let mut all =
-                format!("{} · {} · {} points{part}\n", self.provenance.model, self.manifest.kind.name(), table.rows());
+            let mut all = format!(
+                "{} · {} · {}{part}\n",
+                self.provenance.model,
+                self.manifest.kind.name(),
+                counted(table.rows() as u64, "point")
+            );
             for warning in self.warnings {
                 all += &format!("warning: {warning}\n");
             }
@@ -69,7 +74,11 @@ impl Summary<'_> {
     fn interrupted(&self, done: u64) -> String {
         match &self.storage.dir {
             Some(folder) => format!(
-                "interrupted: {done} points are kept in `{}`\n  help: run the same command with --resume to go on",
+                "interrupted: {} kept in `{}`\n  help: run the same command with --resume to go on",
+                match done {
+                    1 => "1 point is".to_owned(),
+                    _ => format!("{done} points are"),
+                },
                 folder.display()
             ),
             None => "interrupted: nothing is kept without a folder\n  help: give one with --dir DIR".to_owned(),
@@ -83,7 +92,7 @@ impl Summary<'_> {
             let folder = folder.display();
             text += &match shard == Shard::default() {
                 true => format!("written: {folder}/{kind}.csv, {folder}/{kind}.parquet\n"),
-                false => format!("kept in {folder}; gaitc merge joins all {} shards\n", shard.count),
+                false => format!("kept in {folder}; gaitc merge joins all {}\n", counted(shard.count, "shard")),
             };
         }
         if let Some(file) = self.storage.out.as_ref().filter(|_| !output::lost()) {

@@ -16,7 +16,7 @@ use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::flags::{parse_assignment, parse_values};
 use gaitc_compiler::front::{format_quantity, format_si};
 use gaitc_compiler::ir;
-use gaitc_runtime::optimize::{Interrupt, Settings, Status, solve};
+use gaitc_runtime::optimize::{Settings, Status, solve};
 use gaitc_runtime::orbit::{GaitOutcome, GaitStatus};
 use gaitc_runtime::return_map::Accuracy;
 use gaitc_runtime::study::sweep::{Gaits, Reference, Route};
@@ -38,8 +38,8 @@ pub(super) struct Sweep<'l> {
     pub(super) design: Design,
     period: usize,
     pub(super) problem: Option<ir::Problem>,
+    /// With what Ctrl-C requests.
     accuracy: Accuracy,
-    interrupt: Interrupt,
 }
 
 pub(crate) fn run(cli: &Cli, args: &SweepArgs) -> Result<Outcome, InputError> {
@@ -60,15 +60,21 @@ pub(crate) fn run(cli: &Cli, args: &SweepArgs) -> Result<Outcome, InputError> {
     let manifest = Manifest::new(Kind::Sweep, &columns, points, &provenance);
     let pool = Pool::new(args.storage.threads.unwrap_or(0))?;
     let chunk = if sweep.problem.is_some() { OPTIMA } else { GAITS };
-    let asked = Asked { manifest: manifest.clone(), provenance: &provenance, storage: &args.storage, chunk };
+    let asked = Asked {
+        manifest: manifest.clone(),
+        provenance: &provenance,
+        storage: &args.storage,
+        chunk,
+        interrupt: sweep.accuracy.interrupt,
+    };
     let gaits = match &sweep.problem {
         Some(_) => None,
         None => Some(sweep.gaits()?),
     };
     let ran = asked.run(|numbers| {
         let rows = match &gaits {
-            Some(gaits) => pool.map(numbers, &sweep.interrupt, |number| sweep.gait(gaits, number))?,
-            None => pool.map(numbers, &sweep.interrupt, |number| sweep.optimum(number))?,
+            Some(gaits) => pool.map(numbers, &sweep.accuracy.interrupt, |number| sweep.gait(gaits, number))?,
+            None => pool.map(numbers, &sweep.accuracy.interrupt, |number| sweep.optimum(number))?,
         };
         Ok(rows.map(|rows| with_rows(&columns, rows)))
     })?;
@@ -103,8 +109,7 @@ impl<'l> Sweep<'l> {
             swept,
             design,
             period: args.period,
-            accuracy: inputs::accuracy(&args.search)?,
-            interrupt: on_interrupt(),
+            accuracy: Accuracy { interrupt: on_interrupt(), ..inputs::accuracy(&args.search)? },
         })
     }
 
@@ -183,7 +188,6 @@ impl<'l> Sweep<'l> {
                 start: self.guess.clone(),
                 period: self.period,
                 accuracy: self.accuracy,
-                interrupt: self.interrupt.clone(),
             },
         )?)
     }
@@ -220,7 +224,7 @@ impl<'l> Sweep<'l> {
         let Some(problem) = &self.problem else { return Ok(row) };
         let settings = Settings {
             accuracy: self.accuracy,
-            interrupt: self.interrupt.clone(),
+            interrupt: self.accuracy.interrupt,
             // Each optimum is confirmed by a fresh simulation; the long tests are for single answers.
             long_tests: false,
             ..Settings::default()

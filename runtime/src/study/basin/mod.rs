@@ -8,7 +8,6 @@ mod gaits;
 
 pub use gaits::Gaits;
 
-use crate::optimize::Interrupt;
 use crate::orbit::{GaitRequest, GaitStatus, find_gait};
 use crate::return_map::{
     Images, MapOutcome, MapRequest, Plan, Points, RequestError, ReturnMap, Sensitivity, StopReason,
@@ -23,14 +22,13 @@ const NEXT_TO: f64 = 1e-3;
 /// How motions are followed.
 #[derive(Clone)]
 pub struct Settings<'a> {
-    /// Parameters, memory, accuracy and tolerance of the gaits; their period does not matter.
+    /// Parameters, memory, accuracy and tolerance of the gaits; their period does not matter. The accuracy's request to stop ends
+    /// the work early: what is then said of a start is of no use.
     pub request: GaitRequest<'a>,
     /// Most maps from each start.
     pub steps: usize,
     /// Longest period of a gait, in maps.
     pub periods: usize,
-    /// Ends the work early: what is then said of a start is of no use.
-    pub interrupt: Interrupt,
 }
 
 /// Follows motions.
@@ -100,7 +98,7 @@ impl<'a> Basin<'a> {
         let mut fates: Vec<Fate> = starts.iter().map(undecided).collect();
         let mut images = Images::default();
         for steps in 1..=self.settings.steps {
-            if motions.is_empty() || self.settings.interrupt.requested() {
+            if motions.is_empty() || self.settings.request.accuracy.interrupt.requested() {
                 break;
             }
             self.replay(&motions, &mut images)?;

@@ -11,12 +11,14 @@ mod corrector;
 mod diagram;
 mod indicators;
 mod locate;
+mod observer;
 mod path;
 mod switching;
 mod system;
 
-pub use crate::optimize::Interrupt;
+pub use crate::interrupt::Interrupt;
 pub use diagram::follow;
+pub use observer::Observer;
 
 use crate::orbit::{GaitOutcome, GaitRequest};
 use crate::return_map::{Open, RequestError, Stop};
@@ -55,6 +57,8 @@ pub struct Settings {
     pub branch_limit: usize,
     /// A request to stop.
     pub interrupt: Interrupt,
+    /// Who looks on.
+    pub observer: Observer,
 }
 
 impl Default for Settings {
@@ -68,6 +72,7 @@ impl Default for Settings {
             branches: false,
             branch_limit: 64,
             interrupt: Interrupt::default(),
+            observer: Observer::default(),
         }
     }
 }

@@ -90,6 +90,7 @@ impl Walk<'_, '_> {
                     }
                     let done = (&sample.y - &here.y).norm();
                     let angle = here.tangent.dot(&sample.tangent).clamp(-1.0, 1.0).acos();
+                    self.settings.observer.tell(self.system.value(&sample.y));
                     path.samples.push(sample.clone());
                     if let Some(end) = self.ended(&sample, landed, closed) {
                         path.end = end;

@@ -3,7 +3,6 @@
 //! At each point the gait is first looked for as it would be at this point alone: by Newton's method from the given start. Where
 //! that fails, the gait of the reference parameters is followed to the point along a straight line.
 
-use crate::optimize::Interrupt;
 use crate::orbit::{GaitOutcome, GaitRequest, GaitStatus, find_gait, follow};
 use crate::return_map::{Accuracy, RequestError, ReturnMap};
 
@@ -21,10 +20,8 @@ pub struct Reference {
     pub start: Vec<f64>,
     /// How many maps make one period; at least 1.
     pub period: usize,
-    /// Accuracy of the maps.
+    /// Accuracy of the maps. Its request to stop ends the work early: what is then said of a point is of no use.
     pub accuracy: Accuracy,
-    /// Ends the work early.
-    pub interrupt: Interrupt,
 }
 
 impl Reference {
@@ -88,7 +85,7 @@ impl<'a> Gaits<'a> {
     fn followed(&self, to: &[f64]) -> Option<Vec<f64>> {
         let origin = self.origin.as_deref()?;
         let gait = |parameters: &[f64], guess: &[f64]| {
-            if self.reference.interrupt.requested() {
+            if self.reference.accuracy.interrupt.requested() {
                 return Err(true);
             }
             let request =
