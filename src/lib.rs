@@ -3,7 +3,6 @@
 
 pub mod cli;
 pub mod figures;
-pub mod files;
 pub mod load;
 pub mod models;
 pub mod motion;
@@ -16,3 +15,5 @@ pub mod report;
 pub mod study;
 pub mod table;
 pub mod verify;
+
+pub use gaitc_compiler::files;
