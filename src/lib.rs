@@ -3,7 +3,6 @@
 
 pub mod cli;
 pub mod figures;
-pub mod files;
 pub mod load;
 pub mod models;
 pub mod motion;
@@ -17,3 +16,5 @@ pub mod study;
 pub mod table;
 pub mod verify;
 pub mod words;
+
+pub use gaitc_compiler::files;

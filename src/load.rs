@@ -1,6 +1,7 @@
 //! A compiled model together with the values of its spec: parameter values, problems and units are data, read at run
 //! time from the spec file where there is one, else from the text that was embedded at build time.
 
+use crate::files::FileError;
 use crate::models::MODELS;
 use gaitc_compiler::diagnostic;
 use gaitc_compiler::front::{self, Library, Observations, flags::suggest};
@@ -37,13 +38,8 @@ pub enum LoadError {
         help: String,
     },
     /// The spec file cannot be read.
-    #[error("cannot read `{}`: {error}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        error: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] FileError),
     /// The spec has errors; the text is the rendered diagnostics.
     #[error("{0}")]
     Spec(String),
@@ -69,7 +65,7 @@ pub fn load(name: &str, specs: Option<&Path>) -> Result<Loaded, LoadError> {
     if specs.is_none() && path.symlink_metadata().is_err() {
         return embedded(entry);
     }
-    let parsed = front::parse_file(&path).map_err(|error| LoadError::Read { path: path.clone(), error })?;
+    let parsed = front::parse_file(&path)?;
     let (digest, (spec, observations)) = (parsed.digest(), accept(parsed)?);
     if fingerprint(&spec) != entry.compiled.info().fingerprint {
         return Err(LoadError::Stale(path));

@@ -5,6 +5,7 @@ pub mod build;
 pub mod casadi;
 pub mod diagnostic;
 pub mod dimension;
+pub mod files;
 pub mod front;
 pub mod ir;
 pub mod schema;

@@ -42,6 +42,13 @@ impl SourceMap {
         id
     }
 
+    /// Puts another text, with another name, in the place of one: places in the old one have to be moved.
+    pub(crate) fn replace(&mut self, file: FileId, path: impl Into<PathBuf>, text: impl Into<String>) {
+        if let Some(entry) = self.files.get_mut(file.0 as usize) {
+            *entry = (path.into(), text.into());
+        }
+    }
+
     /// How messages call the text; empty for an id of another map.
     pub fn path(&self, file: FileId) -> &Path {
         self.files.get(file.0 as usize).map_or(Path::new(""), |(path, _)| path)

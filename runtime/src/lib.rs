@@ -13,6 +13,7 @@ pub mod ode;
 pub mod optimize;
 pub mod orbit;
 pub mod probe;
+pub mod random;
 pub mod registry;
 pub mod replay;
 pub mod return_map;

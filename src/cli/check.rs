@@ -2,6 +2,7 @@
 
 use super::args::{CheckArgs, Cli};
 use super::{InputError, Outcome, output};
+use crate::files::FileError;
 use gaitc_compiler::diagnostic::{self, Code, Severity};
 use gaitc_compiler::front::{self, Parsed};
 use serde_json::{Value, json};
@@ -46,12 +47,13 @@ impl Found {
         let (mut files, mut other) = (Vec::new(), 0);
         let listed = toml_files(path, &mut files, &mut other);
         match &listed {
-            Err(error) => self.cannot_read(path, &error.to_string(), json),
-            Ok(()) if files.is_empty() && other == 0 => {
-                self.cannot_read(path, "no file below this folder ends in .toml", json);
-            }
+            Err(error) => self.cannot_read(path, (&error.why(), error.help()), json),
             Ok(()) if files.is_empty() => {
-                self.cannot_read(path, "no TOML file below this folder has the key `spec`: there is no spec", json);
+                let why = match other {
+                    0 => "no file below this folder ends in .toml",
+                    _ => "no TOML file below this folder has the key `spec`: there is no spec",
+                };
+                self.cannot_read(path, (why, "name a spec, or a folder that holds specs"), json);
             }
             Ok(()) => {}
         }
@@ -62,7 +64,7 @@ impl Found {
     fn file(&mut self, path: &Path, json: bool) {
         let checked = match front::check_file(path) {
             Ok(checked) => checked,
-            Err(error) => return self.cannot_read(path, &error.to_string(), json),
+            Err(error) => return self.cannot_read(path, (&error.why(), error.help()), json),
         };
         let parsed = &checked.parsed;
         self.errors += parsed.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
@@ -78,31 +80,32 @@ impl Found {
     }
 
     /// Reports a file that cannot be read, and goes on.
-    fn cannot_read(&mut self, path: &Path, why: &str, json: bool) {
+    fn cannot_read(&mut self, path: &Path, (why, help): (&str, &str), json: bool) {
         self.unread += 1;
         let message = format!("cannot read `{}`: {why}", path.display());
         if json {
             let code = Code::File.as_str();
             self.described.push(json!({
                 "code": code, "severity": "error", "message": message, "file": path.display().to_string(),
-                "line": null, "column": null, "help": null,
+                "line": null, "column": null, "help": help,
             }));
         } else {
-            output::error(&message);
+            output::error(&format!("{message}\n  help: {help}"));
         }
     }
 }
 
 /// Every spec and part below a folder, and the number of `other` files that end in `.toml`. Links to folders are not
 /// followed, and hidden folders and what cargo builds are left out.
-fn toml_files(folder: &Path, files: &mut Vec<PathBuf>, other: &mut usize) -> std::io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
-        let entry = entry?;
+fn toml_files(folder: &Path, files: &mut Vec<PathBuf>, other: &mut usize) -> Result<(), FileError> {
+    let problem = |error| FileError::reading(folder, error);
+    for entry in std::fs::read_dir(folder).map_err(problem)? {
+        let entry = entry.map_err(problem)?;
         let (path, name) = (entry.path(), entry.file_name());
         if name.as_encoded_bytes().starts_with(b".") {
             continue;
         }
-        if entry.file_type()?.is_dir() {
+        if entry.file_type().map_err(problem)?.is_dir() {
             if name != "target" {
                 toml_files(&path, files, other)?;
             }

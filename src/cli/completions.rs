@@ -16,7 +16,10 @@ pub(crate) struct CompletionsArgs {
     shell: Shell,
 }
 
-pub(super) fn run(args: &CompletionsArgs) -> Result<Outcome, InputError> {
+pub(super) fn run(cli: &Cli, args: &CompletionsArgs) -> Result<Outcome, InputError> {
+    if cli.json {
+        return Err(InputError("--json: a script for a shell has no JSON form\n  help: leave --json out".to_owned()));
+    }
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "gaitc", &mut script);
     output::print(&String::from_utf8_lossy(&script));

@@ -4,7 +4,7 @@ use super::args::{ModelArgs, SearchArgs};
 use super::{InputError, output};
 use crate::load::Loaded;
 use gaitc_compiler::front::LONGEST_PERIOD;
-use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, suggest};
+use gaitc_compiler::front::flags::{FlagError, parse_assignment, parse_quantity, suggest};
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Parameter, Problem};
 use gaitc_runtime::return_map::{Accuracy, Method};
@@ -24,12 +24,18 @@ pub(super) fn parameters(loaded: &Loaded, args: &ModelArgs) -> Result<Vec<f64>, 
     let mut values = loaded.parameters();
     let mut seen = Vec::new();
     for text in &args.set {
-        let (name, quantity) = parse_assignment(text)?;
+        let (name, quantity) = parse_assignment(text).map_err(given("--set", text))?;
         let index = parameter(loaded, "--set", name)?;
         once(&mut seen, "--set", name)?;
-        values[index] = parse_quantity(quantity, loaded.spec.parameters[index].dimension)?;
+        let dimension = loaded.spec.parameters[index].dimension;
+        values[index] = parse_quantity(quantity, dimension).map_err(given("--set", text))?;
     }
     Ok(values)
+}
+
+/// What is wrong with the text of a flag, with the flag and its whole argument.
+pub(super) fn given(flag: &str, argument: &str) -> impl FnOnce(FlagError) -> InputError {
+    move |error| error.given_as(flag, argument).into()
 }
 
 /// Refuses a name that a flag gives twice: which of the two is meant cannot be known.
@@ -75,13 +81,14 @@ pub(super) fn varies_outside(loaded: &Loaded, problem: &Problem) -> Vec<String> 
 pub(super) fn guess(loaded: &Loaded, args: &SearchArgs) -> Result<Vec<f64>, InputError> {
     let mut values = loaded.start();
     for text in &args.guess {
-        let (name, quantity) = parse_assignment(text)?;
+        let (name, quantity) = parse_assignment(text).map_err(given("--guess", text))?;
         let states = &loaded.spec.states;
         let names: Vec<&str> = loaded.coordinates().iter().map(|&i| states[i].name.as_str()).collect();
         let Some(index) = names.iter().position(|n| *n == name) else {
             return Err(unknown("--guess", "section coordinate", name, &names));
         };
-        values[index] = parse_quantity(quantity, states[loaded.coordinates()[index]].dimension)?;
+        let dimension = states[loaded.coordinates()[index]].dimension;
+        values[index] = parse_quantity(quantity, dimension).map_err(given("--guess", text))?;
     }
     Ok(values)
 }

@@ -2,10 +2,11 @@
 
 use super::args::Cli;
 use super::{InputError, Outcome, output};
-use crate::files;
+use crate::files::{self, FileError};
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
-use std::path::{Path, PathBuf};
+use serde_json::json;
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  gaitc man ~/.local/share/man/man1\n  man gaitc-optimize")]
@@ -15,19 +16,25 @@ pub(crate) struct ManArgs {
     folder: PathBuf,
 }
 
-pub(super) fn run(args: &ManArgs) -> Result<Outcome, InputError> {
+pub(super) fn run(cli: &Cli, args: &ManArgs) -> Result<Outcome, InputError> {
     let folder = &args.folder;
-    std::fs::create_dir_all(folder).map_err(|error| not_written(folder, &error))?;
+    std::fs::create_dir_all(folder).map_err(|error| not_written(&FileError::writing(folder, error)))?;
     let mut program = Cli::command().name("gaitc");
     program.build();
     let pages = std::iter::once(&program).chain(program.get_subcommands());
-    let mut written = 0;
+    let mut written = Vec::new();
     for command in pages.filter(|command| command.get_name() != "help") {
-        let path = folder.join(format!("{}.1", title(command)));
-        page(command).and_then(|page| files::write(&path, &page)).map_err(|error| not_written(&path, &error))?;
-        written += 1;
+        let name = format!("{}.1", title(command));
+        let path = folder.join(&name);
+        let page = page(command).map_err(|error| FileError::writing(&path, error));
+        page.and_then(|page| files::write(&path, &page)).map_err(|error| not_written(&error))?;
+        written.push(name);
     }
-    output::print(&format!("{written} manual pages in {}\n", folder.display()));
+    if cli.json {
+        output::json(&json!({ "folder": folder.display().to_string(), "files": written }));
+    } else {
+        output::print(&format!("{} manual pages in {}\n", written.len(), folder.display()));
+    }
     Ok(Outcome::Done)
 }
 
@@ -41,6 +48,10 @@ fn page(command: &Command) -> std::io::Result<Vec<u8>> {
     Ok(page)
 }
 
-fn not_written(path: &Path, error: &std::io::Error) -> InputError {
-    InputError(format!("cannot write `{}`: {error}\n  help: name a folder that can be written", path.display()))
+fn not_written(error: &FileError) -> InputError {
+    InputError(format!(
+        "cannot write `{}`: {}\n  help: name a folder that can be written",
+        error.path().display(),
+        error.why()
+    ))
 }

@@ -25,6 +25,7 @@ mod show;
 mod simulate;
 mod stops;
 mod study;
+mod table_file;
 mod verify;
 mod whole;
 
@@ -68,9 +69,10 @@ pub fn main() -> ExitCode {
             if message.use_stderr() {
                 // The flag cannot be asked for where the arguments could not be read.
                 if std::env::args_os().skip(1).take_while(|arg| arg != "--").any(|arg| arg == "--json") {
-                    output::json(&json!({ "status": "error", "message": args::message(&message) }));
+                    let message = output::shortened(&args::message(&message));
+                    output::json(&json!({ "status": "error", "message": message }));
                 }
-                let _ = message.print();
+                output::usage(&message);
                 return ExitCode::from(1);
             }
             // Help and version: printed like any result.
@@ -88,7 +90,7 @@ pub fn main() -> ExitCode {
         Ok(Outcome::Interrupted) => ExitCode::from(INTERRUPTED),
         Err(InputError(message)) => {
             if cli.json && !cli.command.prints_its_own_errors() {
-                output::json(&json!({ "status": "error", "message": message }));
+                output::json(&json!({ "status": "error", "message": output::shortened(&message) }));
             }
             output::error(&message);
             ExitCode::from(1)
@@ -113,8 +115,8 @@ fn run(cli: &Cli) -> Result<Outcome, InputError> {
     });
     match &cli.command {
         Command::Run(args) => run::run(cli, args),
-        Command::Completions(args) => completions::run(args),
-        Command::Man(args) => man::run(args),
+        Command::Completions(args) => completions::run(cli, args),
+        Command::Man(args) => man::run(cli, args),
         Command::Models => models::run(cli),
         Command::New(args) => new::run(cli, args),
         Command::Schema(args) => schema::run(args),

@@ -7,6 +7,11 @@ use serde_json::Value;
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
+/// A longer line of a message has text of the user's that is too long to be shown; ...
+const LONGEST_LINE: usize = 1000;
+/// ... so much of it is, at either end.
+const KEPT: usize = 100;
+
 /// Whether something that was printed did not arrive.
 static LOST: AtomicBool = AtomicBool::new(false);
 
@@ -16,7 +21,9 @@ pub(super) fn print(text: &str) {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         // Said once: what follows is lost for the same reason.
         Err(problem) if problem.kind() != ErrorKind::BrokenPipe && !LOST.swap(true, Ordering::Relaxed) => {
-            error(&format!("the result could not be written: {problem}"));
+            error(&format!(
+                "the result could not be written: {problem}\n  help: make room where stdout goes, and run the same command again"
+            ));
         }
         _ => {}
     }
@@ -70,11 +77,38 @@ pub(super) fn note(message: &str) {
     }
 }
 
+/// A message without the middle of its longest lines: what was typed or read, and is much too long to be what was meant, is
+/// not said again in full.
+pub(super) fn shortened(message: &str) -> String {
+    let one = |line: &str| {
+        let length = line.chars().count();
+        if length <= LONGEST_LINE {
+            return line.to_owned();
+        }
+        let first: String = line.chars().take(KEPT).collect();
+        let last: String = line.chars().skip(length - KEPT).collect();
+        format!("{first} ... {last}")
+    };
+    message.split('\n').map(one).collect::<Vec<_>>().join("\n")
+}
+
 /// Prints an error to stderr, with `error:` before it unless it is a rendered diagnostic, which has its own.
 pub(super) fn error(message: &str) {
+    let message = shortened(message);
     let head = if message.starts_with("error") || message.starts_with("warning") { "" } else { "error: " };
     let mut err = anstream::stderr();
     let _ = writeln!(err, "{head}{}", message.trim_end());
+}
+
+/// Prints what is wrong with the arguments, in clap's colours unless it has to be shortened.
+pub(super) fn usage(error: &clap::Error) {
+    let plain = error.render().to_string();
+    if shortened(&plain) == plain {
+        // That stderr is gone cannot be told to anybody.
+        let _ = error.print();
+    } else {
+        self::error(&plain);
+    }
 }
 
 /// Prints a result as JSON, with where it comes from.

@@ -62,7 +62,7 @@ pub(super) fn run(cli: &Cli, args: &ReportArgs) -> Result<Outcome, InputError> {
     };
     let made = provenance::of(&cli.run, &loaded, &parameters);
     let text = page(&contents(&study, made.clone(), command(&loaded, &parameters, args))?);
-    files::write(&out, text.as_bytes()).map_err(|error| not_written(&out, &error))?;
+    files::write(&out, text.as_bytes())?;
     let converged = outcome.as_ref().map(|outcome| outcome.status == GaitStatus::Converged);
     if cli.json {
         let report = json!({ "model": loaded.spec.name, "file": out.display().to_string(), "gait": converged });
@@ -86,12 +86,7 @@ fn check(out: &Path) -> Result<(), InputError> {
             out.display()
         )));
     }
-    files::try_place(out).map_err(|error| not_written(out, &error))
-}
-
-fn not_written(out: &Path, error: &std::io::Error) -> InputError {
-    let help = "name a file in a folder that exists and can be written (--out FILE.html)";
-    InputError(format!("{}: {error}\n  help: {help}", out.display()))
+    Ok(files::try_place(out)?)
 }
 
 /// The command line that makes the page again, without the file's name.

@@ -3,18 +3,20 @@
 //! A run file is TOML: `command`, then the command's arguments by their long names; `NAME=VALUE` flags may be tables. Results of
 //! every kind carry the run that made them, so they can be given in its place.
 
+mod origin;
+
 use super::args::Cli;
 use super::{InputError, Outcome, output, provenance};
 use crate::load::load;
-use crate::provenance::{Provenance, find};
+use crate::provenance::Provenance;
 use clap::{Arg, ArgAction, Args, Command, CommandFactory};
+use gaitc_compiler::diagnostic::Code;
 use gaitc_compiler::front::flags::suggest;
+use gaitc_compiler::front::shortened;
+use origin::{Origin, Read};
 use serde_json::{Map, Value};
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
-
-/// A larger file is no result that carries its run near its beginning or end.
-const LARGEST: u64 = 1 << 30;
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
@@ -31,52 +33,21 @@ pub(crate) struct RunArgs {
     arguments: Vec<OsString>,
 }
 
-/// A run as it was read, and what it says of the program that it was made with.
-struct Read {
-    run: Map<String, Value>,
-    made: Option<Value>,
-}
-
 pub(super) fn run(cli: &Cli, args: &RunArgs) -> Result<Outcome, InputError> {
-    let mut read = read(&args.file)?;
-    give_way(&mut read.run, &args.arguments);
-    let arguments = arguments(&read.run, &args.arguments, &args.file)?;
-    let mut again = super::parse(arguments)
-        .map_err(|error| InputError(format!("{}: {}", args.file.display(), super::args::message(&error))))?;
+    let Read { mut run, made, origin } = origin::read(&args.file)?;
+    give_way(&mut run, &args.arguments);
+    let arguments = arguments(&run, &args.arguments, &origin)?;
+    let parsed = super::parse(arguments).map_err(|error| InputError(super::args::message(&error)));
+    let mut again = parsed.map_err(|error| origin.asked(error))?;
     again.json |= cli.json;
     again.quiet |= cli.quiet;
     again.verbose |= cli.verbose;
     again.specs = again.specs.take().or_else(|| cli.specs.clone());
-    if let Some(made) = &read.made {
+    if let Some(made) = &made {
         compare(&again, made);
     }
-    super::run(&again)
+    super::run(&again).map_err(|error| origin.asked(error))
 }
-
-fn read(path: &Path) -> Result<Read, InputError> {
-    let fail = |message: String| InputError(format!("{}: {message}", path.display()));
-    let known = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?;
-    if known.len() > LARGEST {
-        return Err(fail(format!("this file has more than {LARGEST} bytes\n  help: give a run file")));
-    }
-    let contents = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
-    if let Some(made) = find(&contents) {
-        let run = made.get("run").and_then(Value::as_object).cloned().unwrap_or_default();
-        return Ok(Read { run, made: Some(made) });
-    }
-    let text = String::from_utf8(contents).map_err(|_| fail(NOTHING.to_owned()))?;
-    if path.extension().is_none_or(|ending| ending != "toml") {
-        return Err(fail(NOTHING.to_owned()));
-    }
-    let table: toml::Table = toml::from_str(&text).map_err(|error| fail(error.to_string()))?;
-    match serde_json::to_value(table) {
-        Ok(Value::Object(run)) => Ok(Read { run, made: None }),
-        _ => Err(fail(NOTHING.to_owned())),
-    }
-}
-
-const NOTHING: &str = "there is no run in this file\n  help: give a run file (`command = \"gait\"`, ...) whose name ends in \
-                       `.toml`, or a result that gaitc wrote";
 
 /// Takes out of a run what further arguments say otherwise: a flag that is given once, or the same name of a `NAME=VALUE` flag.
 fn give_way(run: &mut Map<String, Value>, further: &[OsString]) {
@@ -98,17 +69,9 @@ fn give_way(run: &mut Map<String, Value>, further: &[OsString]) {
 }
 
 /// The command line that a run stands for, with further arguments.
-fn arguments(run: &Map<String, Value>, further: &[OsString], path: &Path) -> Result<Vec<OsString>, InputError> {
-    let fail = |message: String| InputError(format!("{}: {message}", path.display()));
+fn arguments(run: &Map<String, Value>, further: &[OsString], origin: &Origin<'_>) -> Result<Vec<OsString>, InputError> {
     let program = Cli::command();
-    let names: Vec<&str> = program.get_subcommands().map(Command::get_name).filter(|name| *name != "run").collect();
-    let Some(name) = run.get("command").and_then(Value::as_str) else {
-        let help = format!("write `command = \"NAME\"` with one of: {}", names.join(", "));
-        return Err(fail(format!("`command` is missing\n  help: {help}")));
-    };
-    let Some(command) = program.get_subcommands().find(|c| c.get_name() == name && name != "run") else {
-        return Err(fail(format!("no command is named `{name}`\n  help: {}", choose(name, &names))));
-    };
+    let (name, command) = command(run, &program, origin)?;
     let known: Vec<&Arg> = command.get_arguments().chain(program.get_arguments()).collect();
     let keys: Vec<String> = known.iter().map(|arg| provenance::key(arg)).collect();
     let mut all: Vec<OsString> = vec!["gaitc".into(), name.into()];
@@ -116,17 +79,29 @@ fn arguments(run: &Map<String, Value>, further: &[OsString], path: &Path) -> Res
     for (key, value) in run.iter().filter(|(key, _)| *key != "command") {
         let Some(arg) = known.iter().find(|arg| provenance::key(arg) == *key) else {
             let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
-            return Err(fail(format!("`gaitc {name}` has no `{key}`\n  help: {}", choose(key, &keys))));
+            let message = format!("`gaitc {name}` has no `{}`", shortened(key));
+            return Err(origin.refuse(Code::UnknownKey, key, &message, &choose(key, &keys)));
         };
-        let texts = texts(value).map_err(|message| fail(format!("`{key}`: {message}")))?;
-        if arg.is_positional() {
-            positional.extend(texts.into_iter().map(OsString::from));
-        } else if matches!(arg.get_action(), ArgAction::SetTrue) {
+        if matches!(arg.get_action(), ArgAction::SetTrue) {
             match value {
                 Value::Bool(true) => all.push(format!("--{key}").into()),
                 Value::Bool(false) => {}
-                _ => return Err(fail(format!("`{key}`: write `true` or `false`"))),
+                _ => {
+                    let message = format!("`{key}` is {}, not true or false", kind(value));
+                    return Err(origin.refuse(Code::WrongType, key, &message, "write `true` or `false`"));
+                }
             }
+            continue;
+        }
+        let texts = texts(value).map_err(|inner| {
+            let place = inner.map_or_else(|| key.clone(), |inner| format!("{key}.{inner}"));
+            let message = format!("`{}` has no value that can be used", shortened(&place));
+            let help =
+                "write a number, or a text in quotes; of `NAME=VALUE` flags a table with one value for each name";
+            origin.refuse(Code::WrongType, &place, &message, help)
+        })?;
+        if arg.is_positional() {
+            positional.extend(texts.into_iter().map(OsString::from));
         } else {
             all.extend(texts.into_iter().map(|text| OsString::from(format!("--{key}={text}"))));
         }
@@ -138,6 +113,30 @@ fn arguments(run: &Map<String, Value>, further: &[OsString], path: &Path) -> Res
     Ok(all)
 }
 
+/// The command that a run names.
+fn command<'r, 'c>(
+    run: &'r Map<String, Value>,
+    program: &'c Command,
+    origin: &Origin<'_>,
+) -> Result<(&'r str, &'c Command), InputError> {
+    let commands = || program.get_subcommands().filter(|command| command.get_name() != "run");
+    let names: Vec<&str> = commands().map(Command::get_name).collect();
+    let help = || format!("write `command = \"NAME\"` with one of: {}", names.join(", "));
+    let name = match run.get("command") {
+        None => return Err(origin.plainly("`command` is missing", &help())),
+        Some(Value::String(name)) => name,
+        Some(other) => {
+            let message = format!("`command` is {}, not the name of a command", kind(other));
+            return Err(origin.refuse(Code::WrongType, "command", &message, &help()));
+        }
+    };
+    let found = commands().find(|command| command.get_name() == name).map(|command| (name.as_str(), command));
+    found.ok_or_else(|| {
+        let message = format!("no command is named `{}`", shortened(name));
+        origin.refuse(Code::BadValue, "command", &message, &choose(name, &names))
+    })
+}
+
 fn choose(name: &str, names: &[&str]) -> String {
     match suggest(name, names.iter().copied()) {
         Some(close) => format!("did you mean `{close}`?"),
@@ -145,21 +144,39 @@ fn choose(name: &str, names: &[&str]) -> String {
     }
 }
 
-/// The values of one argument as the command line has them.
-fn texts(value: &Value) -> Result<Vec<String>, String> {
+/// What a value is, in words.
+fn kind(value: &Value) -> &'static str {
     match value {
-        Value::String(text) => Ok(vec![text.clone()]),
-        Value::Number(number) => Ok(vec![number.to_string()]),
-        Value::Bool(_) => Ok(Vec::new()),
-        Value::Array(all) => Ok(all.iter().map(texts).collect::<Result<Vec<_>, _>>()?.concat()),
+        Value::Null => "nothing",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "a table",
+    }
+}
+
+/// The values of one argument as the command line has them; else the name in its table that has none.
+fn texts(value: &Value) -> Result<Vec<String>, Option<String>> {
+    match value {
+        Value::Array(all) => all.iter().map(|value| text(value).ok_or(None)).collect(),
         Value::Object(all) => {
-            let one = |(name, value): (&String, &Value)| match &texts(value)?[..] {
-                [text] => Ok(format!("{name}={text}")),
-                _ => Err(format!("write one value for `{name}`")),
+            let one = |(name, value): (&String, &Value)| match text(value) {
+                Some(text) => Ok(format!("{name}={text}")),
+                None => Err(Some(name.clone())),
             };
             all.iter().map(one).collect()
         }
-        Value::Null => Err("there is no value".to_owned()),
+        one => Ok(vec![text(one).ok_or(None)?]),
+    }
+}
+
+/// A single value.
+fn text(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Number(number) => Some(number.to_string()),
+        _ => None,
     }
 }
 

@@ -56,5 +56,5 @@ pub(super) fn find(model: &str, specs: Option<&Path>) -> Result<Parsed, InputErr
 }
 
 fn read(path: &Path) -> Result<Parsed, InputError> {
-    front::parse_file(path).map_err(|error| InputError(format!("cannot read `{}`: {error}", path.display())))
+    Ok(front::parse_file(path)?)
 }

@@ -6,17 +6,16 @@ mod start;
 mod tables;
 
 use super::args::{Cli, ModelArgs, SearchArgs};
-use super::{InputError, Outcome, inputs, output, plots, provenance};
+use super::{InputError, Outcome, inputs, output, plots, provenance, table_file};
 use crate::load::load;
 use crate::motion;
-use crate::table::{self, Format, Table};
 use clap::Args;
 use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::flags::parse_quantity;
 use gaitc_runtime::return_map::RequestError;
 use gaitc_runtime::trajectory::{FollowRequest, MOST_VALUES, Sampling, Until};
 use report::Report;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
@@ -77,6 +76,8 @@ pub(crate) struct SimulateArgs {
     plot_path: Option<PathBuf>,
 }
 
+/// More steps than this are no trajectory to look at.
+const MOST_STEPS: usize = 1_000_000;
 /// How many steps without flags.
 const STEPS: usize = 10;
 /// How many samples a step has without flags, ...
@@ -95,7 +96,7 @@ pub(super) fn run(cli: &Cli, args: &SimulateArgs) -> Result<Outcome, InputError>
     let memory = start::memory(&loaded, &args.memory)?;
     let mut observed = Vec::new();
     for text in &args.show {
-        observed.push(loaded.observations.observe(text)?);
+        observed.push(loaded.observations.observe(text).map_err(inputs::given("--show", text))?);
     }
     if args.show.is_empty() {
         observed = loaded.observations.named().to_vec();
@@ -134,7 +135,7 @@ pub(super) fn run(cli: &Cli, args: &SimulateArgs) -> Result<Outcome, InputError>
         [("--out", &args.out, report.samples_table()), ("--events", &args.events, report.events_table())]
     {
         if let Some(path) = path {
-            save(flag, path, &table, &provenance);
+            table_file::save(flag, path, &table, &provenance);
         }
     }
     if let Some(file) = &args.plot {
@@ -150,13 +151,15 @@ pub(super) fn run(cli: &Cli, args: &SimulateArgs) -> Result<Outcome, InputError>
 fn until(args: &SimulateArgs, section: bool) -> Result<Until, InputError> {
     match (&args.time, args.steps) {
         (Some(text), _) => {
-            let time = parse_quantity(text, Dimension::TIME)?;
+            let time = parse_quantity(text, Dimension::TIME).map_err(inputs::given("--time", text))?;
             if time > 0.0 {
                 return Ok(Until::Time(time));
             }
             Err(InputError(format!("--time {text}: give a positive time, e.g. --time 2s")))
         }
-        (None, Some(0)) => Err(InputError("--steps 0: give a number from 1 on, or a time (--time 2s)".to_owned())),
+        (None, Some(steps)) if !(1..=MOST_STEPS).contains(&steps) => {
+            Err(InputError(format!("--steps {steps}: give a number from 1 to {MOST_STEPS}, or a time (--time 2s)")))
+        }
         (None, _) if !section => Err(InputError(format!(
             "model `{}` has no [section], so its steps cannot be counted\n  help: say how long to follow it, e.g. --time 2s",
             args.model.model
@@ -168,7 +171,7 @@ fn until(args: &SimulateArgs, section: bool) -> Result<Until, InputError> {
 /// Where to sample.
 fn sampling(args: &SimulateArgs, until: Until) -> Result<Sampling, InputError> {
     if let Some(text) = &args.interval {
-        let interval = parse_quantity(text, Dimension::TIME)?;
+        let interval = parse_quantity(text, Dimension::TIME).map_err(inputs::given("--interval", text))?;
         if interval > 0.0 {
             return Ok(Sampling::Interval(interval));
         }
@@ -202,8 +205,7 @@ fn files(args: &SimulateArgs, in_plane: bool) -> Result<(), InputError> {
         if flag.starts_with("--plot") {
             plots::check(flag, path)?;
         } else {
-            Format::of(path).map_err(|message| InputError(format!("{flag} {message}")))?;
-            crate::files::try_place(path).map_err(|error| InputError(not_written(flag, path, &error)))?;
+            table_file::check(flag, path)?;
         }
     }
     if args.plot_path.is_some() && !in_plane {
@@ -214,17 +216,6 @@ fn files(args: &SimulateArgs, in_plane: bool) -> Result<(), InputError> {
         )));
     }
     Ok(())
-}
-
-/// Writes a table; what was printed stands even if that fails.
-fn save(flag: &str, path: &Path, table: &Table, provenance: &crate::provenance::Provenance) {
-    if let Err(error) = table::write(table, path, provenance) {
-        output::lose(&not_written(flag, path, &error));
-    }
-}
-
-fn not_written(flag: &str, path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{flag} {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
 }
 
 /// A request that the runtime refuses, in the words of the flags.

@@ -1,7 +1,7 @@
 //! Pictures as files: the format by the name, whole or not there.
 
 use super::{Picture, png, svg};
-use crate::files;
+use crate::files::{self, FileError};
 use crate::provenance::Provenance;
 use std::path::{Path, PathBuf};
 
@@ -12,13 +12,8 @@ pub enum PictureError {
     #[error("{}: a picture is an SVG or a PNG\n  help: end the name in `.svg` or `.png`", .0.display())]
     Format(PathBuf),
     /// The file could not be written.
-    #[error("{}: {source}\n  help: name a file in a folder that exists and can be written", path.display())]
-    File {
-        /// Where.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +39,7 @@ fn format(path: &Path) -> Result<Format, PictureError> {
 /// The name says no format, or the place cannot be written.
 pub fn check_name(path: &Path) -> Result<(), PictureError> {
     format(path)?;
-    files::try_place(path).map_err(|source| PictureError::File { path: path.to_owned(), source })
+    Ok(files::try_place(path)?)
 }
 
 /// Writes a picture as SVG or PNG, as the name says.
@@ -52,10 +47,9 @@ pub fn check_name(path: &Path) -> Result<(), PictureError> {
 /// # Errors
 /// The name says neither, or the file system refuses; what stood there is then untouched.
 pub fn write(picture: &dyn Picture, path: &Path, provenance: &Provenance) -> Result<(), PictureError> {
-    let failed = |source| PictureError::File { path: path.to_owned(), source };
     let bytes = match format(path)? {
         Format::Svg => svg::text(&picture.draw(), svg::Setting::File(provenance)).into_bytes(),
-        Format::Png => png::bytes(&picture.draw(), provenance).map_err(failed)?,
+        Format::Png => png::bytes(&picture.draw(), provenance).map_err(|error| FileError::writing(path, error))?,
     };
-    files::write(path, &bytes).map_err(failed)
+    Ok(files::write(path, &bytes)?)
 }

@@ -3,12 +3,17 @@
 use super::chunk;
 use super::lock::Lock;
 use super::manifest::Manifest;
-use crate::files;
+use crate::files::{self, FileError, Problem};
 use crate::table::Table;
 use std::fs;
-use std::io::{Error, ErrorKind};
+use std::io::Error;
 use std::path::{Path, PathBuf};
 use thiserror::Error as ErrorDerive;
+
+/// Most bytes of a value in a chunk; texts are names.
+const LARGEST_VALUE: u64 = 256;
+/// A larger file is no manifest.
+const LARGEST_MANIFEST: u64 = 16 << 20;
 
 /// Why a folder cannot be used.
 #[derive(Debug, ErrorDerive)]
@@ -55,24 +60,19 @@ pub enum StoreError {
         why: String,
     },
     /// Something cannot be read.
-    #[error("cannot read `{}`: {error}", path.display())]
-    Read {
-        /// What.
-        path: PathBuf,
-        /// What the system said.
-        error: Error,
-    },
+    #[error(transparent)]
+    Read(#[from] FileError),
     /// Something cannot be written.
     #[error(
-        "cannot write `{}`: {error}\n  help: make room or give write permission, then run the same command again, a sweep or a basin \
+        "cannot write `{}`: {}\n  help: make room or give write permission, then run the same command again, a sweep or a basin \
          with --resume: what is complete is kept",
-        path.display()
+        path.display(), error.why()
     )]
     Write {
         /// What.
         path: PathBuf,
-        /// What the system said.
-        error: Error,
+        /// What was in the way.
+        error: FileError,
     },
     /// One folder is named twice.
     #[error("`{}` is given twice\n  help: name each folder once", .0.display())]
@@ -96,6 +96,13 @@ pub enum StoreError {
     Incomplete(String),
 }
 
+impl StoreError {
+    /// Of something that the system did not let write.
+    pub(super) fn not_written(path: &Path, error: Error) -> Self {
+        Self::Write { path: path.to_owned(), error: FileError::writing(path, error) }
+    }
+}
+
 /// A study's folder.
 #[derive(Debug)]
 pub struct Folder {
@@ -111,7 +118,7 @@ impl Folder {
     /// # Errors
     /// When it is in use, holds something else, or cannot be written to; nothing has been changed then.
     pub fn open(path: &Path, manifest: Manifest, resume: bool) -> Result<Self, StoreError> {
-        let problem = |error| StoreError::Write { path: path.to_owned(), error };
+        let problem = |error| StoreError::not_written(path, error);
         fs::create_dir_all(path).map_err(problem)?;
         if !holds_study(path) && holds_other(path)? {
             return Err(StoreError::Foreign(path.to_owned()));
@@ -133,7 +140,7 @@ impl Folder {
         if fs::symlink_metadata(&chunks).is_ok_and(|known| !known.is_dir()) {
             return Err(StoreError::NotOwn(chunks));
         }
-        fs::create_dir_all(&chunks).map_err(|error| StoreError::Write { path: chunks.clone(), error })?;
+        fs::create_dir_all(&chunks).map_err(|error| StoreError::not_written(&chunks, error))?;
         for place in [path, &chunks] {
             remove_leftovers(place);
         }
@@ -184,10 +191,12 @@ impl Folder {
     pub fn chunk(&self, number: u64) -> Result<Option<Table>, StoreError> {
         let path = self.path.join(chunk_name(number));
         is_own(&path)?;
-        match fs::read(&path) {
+        let rows = self.manifest.rows(number);
+        let values = (rows.end - rows.start).saturating_mul(self.manifest.table().columns.len() as u64);
+        match files::read(&path, LARGEST_MANIFEST.saturating_add(values.saturating_mul(LARGEST_VALUE))) {
             Ok(bytes) => Ok(chunk::decode(&self.manifest, number, &bytes)),
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(StoreError::Read { path, error }),
+            Err(error) if error.is_missing() || matches!(error.problem(), Problem::TooLarge { .. }) => Ok(None),
+            Err(error) => Err(error.into()),
         }
     }
 
@@ -229,13 +238,13 @@ fn holds_study(path: &Path) -> bool {
 fn read_manifest(path: &Path) -> Result<Manifest, StoreError> {
     let path = path.join("study.json");
     is_own(&path)?;
-    let text = fs::read_to_string(&path).map_err(|error| StoreError::Read { path: path.clone(), error })?;
+    let text = files::read_text(&path, LARGEST_MANIFEST)?;
     Manifest::read(&text).map_err(|why| StoreError::Damaged { path, why })
 }
 
 /// Whether there is anything but what a run leaves that was killed before it wrote its manifest.
 fn holds_other(path: &Path) -> Result<bool, StoreError> {
-    let problem = |error| StoreError::Read { path: path.to_owned(), error };
+    let problem = |error| StoreError::from(FileError::reading(path, error));
     for entry in fs::read_dir(path).map_err(problem)? {
         let name = entry.map_err(problem)?.file_name();
         let name = name.to_string_lossy();

@@ -20,7 +20,7 @@ impl Lock {
     pub(super) fn take(folder: &Path) -> Result<Self, StoreError> {
         let path = folder.join("lock");
         super::folder::is_own(&path)?;
-        let problem = |error| StoreError::Write { path: path.clone(), error };
+        let problem = |error| StoreError::not_written(&path, error);
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(problem)?;
         match file.try_lock() {

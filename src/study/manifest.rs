@@ -2,6 +2,7 @@
 
 use crate::provenance::Provenance;
 use crate::table::{Column, Table, Values};
+use gaitc_compiler::front::shortened;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};
@@ -239,6 +240,16 @@ fn difference(path: &str, a: &Value, b: &Value) -> Option<String> {
     if a == b {
         return None;
     }
+    // Of lists (the columns of a table, a flag that was given twice) the first entry that differs says it.
+    if let (Value::Array(a), Value::Array(b)) = (a, b) {
+        let entry = |list: &[Value], i: usize| list.get(i).cloned().unwrap_or_default();
+        return (0..a.len().max(b.len())).find_map(|i| {
+            let (a, b) = (entry(a, i), entry(b, i));
+            let name = a.get("name").or_else(|| b.get("name")).and_then(Value::as_str);
+            let path = name.map_or_else(|| path.to_owned(), |name| format!("{path}.{}", shortened(name)));
+            difference(&path, &a, &b)
+        });
+    }
     if let (Value::Object(a), Value::Object(b)) = (a, b) {
         let inner = |key: &String| {
             let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
@@ -246,6 +257,11 @@ fn difference(path: &str, a: &Value, b: &Value) -> Option<String> {
         };
         return a.keys().chain(b.keys()).find_map(inner);
     }
-    let show = |value: &Value| if value.is_null() { "nothing".to_owned() } else { value.to_string() };
+    let show = |value: &Value| match value {
+        Value::Null => "nothing".to_owned(),
+        Value::Object(_) | Value::Array(_) => "an entry".to_owned(),
+        Value::String(text) => format!("\"{}\"", shortened(text)),
+        value => value.to_string(),
+    };
     Some(format!("`{path}` is {} there, {} here", show(a), show(b)))
 }

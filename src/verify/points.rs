@@ -9,6 +9,7 @@ use crate::load::Loaded;
 use gaitc_compiler::ir::eval::{Environment, derivative, value};
 use gaitc_compiler::ir::{NodeId, Symbol};
 use gaitc_runtime::probe::Point;
+use gaitc_runtime::random::SplitMix64;
 
 /// Most steps of Newton's method to a guard's zero.
 const NEWTON_STEPS: usize = 50;
@@ -16,7 +17,7 @@ const NEWTON_STEPS: usize = 50;
 /// Makes random points.
 pub struct Points<'a> {
     loaded: &'a Loaded,
-    state: u64,
+    random: SplitMix64,
     made: usize,
 }
 
@@ -56,20 +57,11 @@ impl Owned {
 impl<'a> Points<'a> {
     /// Points of a model, reproducible by seed.
     pub fn new(loaded: &'a Loaded, seed: u64) -> Self {
-        Self { loaded, state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15), made: 0 }
-    }
-
-    /// Uniform in [0, 1): splitmix64 (Steele, Lea, Flood 2014), enough for test points.
-    fn uniform(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        Self { loaded, random: SplitMix64::new(seed.wrapping_mul(SplitMix64::STEP)), made: 0 }
     }
 
     fn between(&mut self, lower: f64, upper: f64) -> f64 {
-        lower + (upper - lower) * self.uniform()
+        lower + (upper - lower) * self.random.uniform()
     }
 
     fn parameters(&mut self) -> Vec<f64> {
@@ -138,7 +130,8 @@ impl<'a> Points<'a> {
             x = self.embedded(&x, &p);
         }
         let k = spec.states.iter().map(|_| self.between(-2.0, 2.0)).collect();
-        let memory = spec.memory.iter().map(|m| m.initial as f64 + (self.uniform() * 4.0).floor()).collect::<Vec<_>>();
+        let memory =
+            spec.memory.iter().map(|m| m.initial as f64 + (self.random.uniform() * 4.0).floor()).collect::<Vec<_>>();
         let functionals = spec.functionals.iter().map(|_| self.between(0.2, 2.0)).collect();
         let (tau, t) = (self.between(0.0, 0.5), self.between(0.0, 5.0));
         let branch = vec![false; spec.switches.len()];
@@ -152,7 +145,7 @@ impl<'a> Points<'a> {
         }
         if self.made.is_multiple_of(2) {
             for selector in &mut point.branch {
-                *selector = self.uniform() < 0.5;
+                *selector = self.random.uniform() < 0.5;
             }
         }
         point

@@ -127,7 +127,7 @@ fn what_is_no_table_is_refused() {
     let mut ragged = table();
     ragged.columns[3].values = Values::Number(vec![1.0]);
     refused(&ragged, "table.parquet", "has 1 rows, not 6");
-    refused(&table(), "no/such/folder.csv", "No such file");
+    refused(&table(), "no/such/folder.csv", "no such folder");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     write(&table(), &folder.path().join("Table.PARQUET"), &provenance()).unwrap();
 }

@@ -191,7 +191,7 @@ impl Config {
         }
         write(folder.join("mod.rs"), &self.registry(folders, &folder, specs)?)?;
         for path in orphans(&folder, specs)? {
-            fs::remove_file(&path).map_err(BuildError::io(&path))?;
+            fs::remove_file(&path).map_err(BuildError::writing(&path))?;
             report.deleted.push(path);
         }
         Ok(())
@@ -286,8 +286,8 @@ fn orphans(folder: &Path, specs: &[Spec]) -> Result<Vec<PathBuf>, BuildError> {
         return Ok(Vec::new());
     }
     let mut orphans = Vec::new();
-    for entry in fs::read_dir(folder).map_err(BuildError::io(folder))? {
-        let path = entry.map_err(BuildError::io(folder))?.path();
+    for entry in fs::read_dir(folder).map_err(BuildError::reading(folder))? {
+        let path = entry.map_err(BuildError::reading(folder))?.path();
         let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         let wanted = stem == "mod" || specs.iter().any(|spec| spec.name == stem);
         let rust = path.extension().is_some_and(|extension| extension == "rs");
@@ -301,7 +301,7 @@ fn orphans(folder: &Path, specs: &[Spec]) -> Result<Vec<PathBuf>, BuildError> {
 
 /// Writes the file that a crate includes to mount the models.
 fn mount(folders: &Folders, report: &mut Report) -> Result<(), BuildError> {
-    let list = std::path::absolute(report.mounted.join("mod.rs")).map_err(BuildError::io(&report.mounted))?;
+    let list = std::path::absolute(report.mounted.join("mod.rs")).map_err(BuildError::reading(&report.mounted))?;
     let text = format!("/// The compiled models.\n#[path = {:?}]\npub mod generated;\n", list.to_string_lossy());
     let path = folders.out.join("gaitc_models.rs");
     if write_if_different(&path, &text)? {

@@ -2,8 +2,9 @@
 
 use crate::back::rust::EmitError;
 use crate::casadi::CasadiError;
+use crate::files::FileError;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::Path;
 
 /// Why specs could not be compiled.
 ///
@@ -18,13 +19,8 @@ pub enum BuildError {
     #[error("the environment variable `{0}` is not set; run this from a build script, or set it in `Config`")]
     NotInBuildScript(&'static str),
     /// A file or folder cannot be read or written.
-    #[error("`{}`: {source}", path.display())]
-    Io {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The symbolic step failed.
     #[error(transparent)]
     Casadi(#[from] CasadiError),
@@ -45,9 +41,13 @@ impl fmt::Debug for BuildError {
 }
 
 impl BuildError {
-    /// Adds the path to an I/O error.
-    pub(super) fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
-        let path = path.into();
-        move |source| Self::Io { path, source }
+    /// Of something that could not be read.
+    pub(super) fn reading(path: &Path) -> impl FnOnce(std::io::Error) -> Self + use<'_> {
+        move |error| FileError::reading(path, error).into()
+    }
+
+    /// Of something that could not be written.
+    pub(super) fn writing(path: &Path) -> impl FnOnce(std::io::Error) -> Self + use<'_> {
+        move |error| FileError::writing(path, error).into()
     }
 }

@@ -49,7 +49,7 @@ impl Folders {
         match relative {
             Some(path) => Ok(path),
             None => {
-                let path = std::path::absolute(spec).map_err(BuildError::io(spec))?;
+                let path = std::path::absolute(spec).map_err(BuildError::reading(spec))?;
                 Ok(path.to_string_lossy().into_owned())
             }
         }

@@ -25,8 +25,8 @@ pub(super) struct Spec {
 /// All specs of a folder, by name. Only its own `*.toml` files are models; folders in it hold parts.
 pub(super) fn read_folder(folder: &Path, runtime_path: &str) -> Result<Vec<Spec>, BuildError> {
     let mut paths = Vec::new();
-    for entry in fs::read_dir(folder).map_err(BuildError::io(folder))? {
-        let path = entry.map_err(BuildError::io(folder))?.path();
+    for entry in fs::read_dir(folder).map_err(BuildError::reading(folder))? {
+        let path = entry.map_err(BuildError::reading(folder))?.path();
         // Editors and file managers leave hidden files about.
         let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
         if !hidden && path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
@@ -47,7 +47,7 @@ pub(super) fn read_folder(folder: &Path, runtime_path: &str) -> Result<Vec<Spec>
 
 /// One spec, or the report on what is wrong with it.
 fn read(path: &Path, runtime_path: &str) -> Result<Result<Spec, String>, BuildError> {
-    let parsed = front::parse_file(path).map_err(BuildError::io(path))?;
+    let parsed = front::parse_file(path)?;
     let warnings = crate::diagnostic::render(&parsed.diagnostics, &parsed.sources, false);
     let Some(model) = parsed.model else {
         return Ok(Err(warnings));

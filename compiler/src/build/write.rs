@@ -1,6 +1,7 @@
-//! Files that are either whole or not there, and untouched when nothing changed.
+//! Files that stay untouched when nothing changed.
 
 use super::BuildError;
+use crate::files;
 use std::fs;
 use std::path::Path;
 
@@ -10,15 +11,8 @@ pub(super) fn write_if_different(path: &Path, text: &str) -> Result<bool, BuildE
         return Ok(false);
     }
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(BuildError::io(folder))?;
+        fs::create_dir_all(folder).map_err(BuildError::writing(folder))?;
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    let result = fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path));
-    if result.is_err() {
-        // What is left of a failed write is of no use; that it may not be there is no error.
-        let _ = fs::remove_file(&temporary);
-    }
-    result.map_err(BuildError::io(path))?;
+    files::write(path, text.as_bytes())?;
     Ok(true)
 }

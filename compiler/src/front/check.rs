@@ -3,9 +3,9 @@
 use super::parts::{Library, Loader};
 use super::{Parsed, SIZE_LIMIT, document, lower, parse_file, read, sorted};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::files::{self, FileError};
 use crate::front::spec::Spec;
 use crate::source::{SourceMap, Span};
-use std::io::Read as _;
 use std::path::Path;
 
 /// What was found in a file.
@@ -23,13 +23,9 @@ pub struct Checked {
 ///
 /// # Errors
 /// As [`parse_file`].
-pub fn check_file(path: &Path) -> std::io::Result<Checked> {
-    let regular = std::fs::metadata(path)?;
-    if regular.is_file() && regular.len() <= SIZE_LIMIT {
-        let bytes = std::fs::read(path)?;
-        if let Some(parsed) = std::str::from_utf8(&bytes).ok().and_then(|text| part(path, text)) {
-            return Ok(Checked { parsed, part: true });
-        }
+pub fn check_file(path: &Path) -> Result<Checked, FileError> {
+    if let Some(parsed) = files::read_text(path, SIZE_LIMIT).ok().and_then(|text| part(path, &text)) {
+        return Ok(Checked { parsed, part: true });
     }
     Ok(Checked { parsed: parse_file(path)?, part: false })
 }
@@ -37,14 +33,8 @@ pub fn check_file(path: &Path) -> std::io::Result<Checked> {
 /// Whether a file may be meant as a spec or a part, as far as can be seen without reading it as one: it has the key `spec`
 /// at its top, or, where its TOML is broken, a line that begins with it. What cannot be looked into may be anything.
 pub fn may_be_spec(path: &Path) -> bool {
-    let text = || {
-        let file = std::fs::File::open(path).ok()?;
-        let mut bytes = Vec::new();
-        file.take(SIZE_LIMIT).read_to_end(&mut bytes).ok()?;
-        Some(String::from_utf8_lossy(&bytes).into_owned())
-    };
-    // A device or a pipe may never end.
-    let Some(text) = path.is_file().then(text).flatten() else { return true };
+    let Ok(bytes) = files::read_start(path, SIZE_LIMIT) else { return true };
+    let text = String::from_utf8_lossy(&bytes);
     let (document, broken) = document::top_level(&text);
     let begins =
         |line: &str| line.trim_start().strip_prefix("spec").is_some_and(|rest| rest.trim_start().starts_with('='));

@@ -25,9 +25,26 @@ pub struct FlagError {
     pub diagnostics: Vec<Diagnostic>,
     /// The flag's text.
     pub sources: SourceMap,
+    /// Which of the texts it is: an observation refers to others.
+    own: FileId,
 }
 
 impl FlagError {
+    /// The same with the flag that has the text, such as `--set`, and its whole argument, which the text may be the end of.
+    #[must_use]
+    pub fn given_as(mut self, flag: &str, argument: &str) -> Self {
+        // What was read is a part of the argument: mostly its end, behind `NAME=`.
+        let Some(shift) = argument.rfind(self.sources.text(self.own)) else { return self };
+        let own = self.own;
+        let labels = self.diagnostics.iter_mut().flat_map(|diagnostic| &mut diagnostic.labels);
+        for label in labels.filter(|label| label.span.file == own) {
+            label.span.start += shift;
+            label.span.end += shift;
+        }
+        self.sources.replace(own, flag, argument);
+        self
+    }
+
     /// For people, the wrong characters underlined; with ANSI colours if `color`.
     pub fn render(&self, color: bool) -> String {
         render(&self.diagnostics, &self.sources, color)
@@ -65,7 +82,8 @@ impl Flag {
     }
 
     pub(super) fn finish<T>(self, result: Option<T>) -> Result<T, FlagError> {
-        let error = FlagError { diagnostics: self.diagnostics, sources: self.sources };
+        let own = self.text.span.file;
+        let error = FlagError { diagnostics: self.diagnostics, sources: self.sources, own };
         match result {
             Some(result) if !error.diagnostics.iter().any(Diagnostic::is_error) => Ok(result),
             _ => Err(error),

@@ -25,6 +25,7 @@ pub(crate) mod text;
 pub mod units;
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::files::{self, FileError, Problem};
 use crate::ir::Model;
 use crate::ir::canonical::hex_digest;
 use crate::source::{FileId, SourceMap, Span};
@@ -33,6 +34,7 @@ pub use format::{format_exact, format_number, format_quantity, format_si, in_uni
 pub use keys::{LONGEST_PERIOD, MOST_ROBUST};
 pub use names::{is_module_name, suggest};
 pub use observe::Observations;
+pub use parser::shortened;
 pub use parts::Library;
 use parts::Loader;
 pub use si::{si_unit, si_unit_like};
@@ -75,17 +77,15 @@ impl Parsed {
 ///
 /// # Errors
 /// When it is no regular file, or cannot be opened or read. A file that is too large or not UTF-8 gives a diagnostic.
-pub fn parse_file(path: &Path) -> std::io::Result<Parsed> {
-    let metadata = std::fs::metadata(path)?;
-    if !metadata.is_file() {
-        // A device or a pipe may never end.
-        return Err(std::io::Error::other("this is not a regular file; a spec is a TOML file"));
-    }
-    let length = metadata.len();
-    if length > SIZE_LIMIT {
-        return Ok(unreadable(path, "", 0, &format!("this file has {length} bytes; a spec has at most {SIZE_LIMIT}")));
-    }
-    let bytes = std::fs::read(path)?;
+pub fn parse_file(path: &Path) -> Result<Parsed, FileError> {
+    let bytes = match files::read(path, SIZE_LIMIT) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            let Problem::TooLarge { bytes, most } = error.problem() else { return Err(error) };
+            let message = format!("this file has {bytes} bytes; a spec has at most {most}");
+            return Ok(unreadable(path, "", 0, &message));
+        }
+    };
     Ok(match std::str::from_utf8(&bytes) {
         Ok(text) => parse_with(path, text, Library::Folder(path.parent().unwrap_or(Path::new("")))),
         Err(error) => {

@@ -353,8 +353,8 @@ fn join(operator: Infix, left: Expr, right: Expr) -> Expr {
     Expr { kind, span }
 }
 
-/// The first characters of a long text.
-pub(crate) fn shortened(text: &str) -> String {
+/// The first characters of a long text, control characters replaced: for names in messages.
+pub fn shortened(text: &str) -> String {
     const LIMIT: usize = 40;
     // A name may hold what would break a line of a message.
     let shown = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };

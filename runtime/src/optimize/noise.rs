@@ -1,25 +1,18 @@
-//! Seeded normal random numbers: SplitMix64 (Steele, Lea and Flood 2014) and the polar form of Box and Muller.
+//! Seeded normal random numbers, by the polar form of Box and Muller.
+
+use crate::random::SplitMix64;
 
 /// A sequence that its seed determines.
 #[derive(Clone, Debug)]
 pub(super) struct Noise {
-    state: u64,
+    random: SplitMix64,
     spare: Option<f64>,
 }
 
 impl Noise {
     /// The sequence of a seed.
     pub(super) fn new(seed: u64) -> Self {
-        Self { state: seed, spare: None }
-    }
-
-    /// The next number in [0, 1).
-    fn uniform(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut x = self.state;
-        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        Self { random: SplitMix64::new(seed), spare: None }
     }
 
     /// The next normal number, of mean 0 and variance 1.
@@ -28,7 +21,7 @@ impl Noise {
             return spare;
         }
         loop {
-            let (x, y) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
+            let (x, y) = (2.0 * self.random.uniform() - 1.0, 2.0 * self.random.uniform() - 1.0);
             let square = x * x + y * y;
             if square > 0.0 && square < 1.0 {
                 let factor = (-2.0 * square.ln() / square).sqrt();

@@ -4,6 +4,8 @@
 //! lets a seed choose among sequences. B. Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020; direction
 //! numbers by Joe and Kuo. The crate `sobol_burley` has both.
 
+use crate::random::mixed;
+
 /// Points of one sequence of the crate; the next ones come from a sequence of another seed.
 const LENGTH: usize = 1 << 16;
 
@@ -13,13 +15,6 @@ pub(crate) fn coordinate(number: usize, axis: usize, seed: u64) -> f64 {
     let sequence = mixed(seed ^ mixed((number / LENGTH) as u64) ^ mixed((axis / axes) as u64).rotate_left(32));
     // The casts keep all bits: both remainders are below 2^16, and of the mixed seed any 32 bits will do.
     f64::from(sobol_burley::sample((number % LENGTH) as u32, (axis % axes) as u32, sequence as u32))
-}
-
-/// The finaliser of the SplitMix64 generator (Steele, Lea and Flood 2014): spreads every bit over all others; 0 stays 0.
-fn mixed(x: u64) -> u64 {
-    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
 }
 
 #[cfg(test)]

@@ -13,11 +13,9 @@ mod words;
 pub(super) use args::ContinueArgs;
 
 use super::args::Cli;
-use super::{InputError, Outcome, inputs, optimize, output, plots, provenance};
-use crate::files;
+use super::{InputError, Outcome, inputs, optimize, output, plots, provenance, table_file};
 use crate::load::{Loaded, load};
 use crate::provenance::Provenance;
-use crate::table;
 use crate::words::counted;
 use gaitc_compiler::front::flags::{parse_assignment, parse_quantity, parse_range};
 use gaitc_compiler::front::{LONGEST_PERIOD, format_quantity};
@@ -27,7 +25,6 @@ use gaitc_runtime::study::continuation::{
     ContinuationOutcome, ContinuationRequest, Diagram, EndReason, Settings, follow,
 };
 use shown::Shown;
-use std::path::Path;
 
 /// Status of a diagram that Ctrl-C ended.
 const INTERRUPTED: &str = "interrupted";
@@ -88,15 +85,9 @@ pub(super) fn run(cli: &Cli, args: &ContinueArgs) -> Result<Outcome, InputError>
 /// Refuses files that cannot be written, or not as what they are named, before the work begins.
 fn places(args: &ContinueArgs) -> Result<(), InputError> {
     if let Some(path) = &args.out {
-        table::Format::of(path).map_err(|error| InputError(format!("--out: {error}")))?;
-        files::try_place(path).map_err(|error| not_written(path, &error))?;
+        table_file::check("--out", path)?;
     }
     args.plot.as_deref().map_or(Ok(()), |path| plots::check("--plot", path))
-}
-
-fn not_written(path: &Path, error: &dyn std::fmt::Display) -> InputError {
-    let path = path.display();
-    InputError(format!("--out {path}: {error}\n  help: name a file in a folder that exists and can be written"))
 }
 
 /// What every way of showing a diagram needs.
@@ -127,10 +118,8 @@ impl Report<'_> {
 
     /// Writes the files that were asked for; what was printed stands even if that fails.
     fn save(&self, diagram: &Diagram, provenance: &Provenance) {
-        if let Some(path) = &self.args.out
-            && let Err(error) = table::write(&self.table(diagram), path, provenance)
-        {
-            output::lose(&not_written(path, &error).0);
+        if let Some(path) = &self.args.out {
+            table_file::save("--out", path, &self.table(diagram), provenance);
         }
         if let Some(path) = &self.args.plot {
             plots::save("--plot", path, &self.picture(diagram), provenance);
@@ -166,10 +155,10 @@ impl Report<'_> {
 
 /// The parameter of `--over` and its range.
 fn over(loaded: &Loaded, text: &str) -> Result<(usize, (f64, f64)), InputError> {
-    let (name, range) = parse_assignment(text)?;
+    let (name, range) = parse_assignment(text).map_err(inputs::given("--over", text))?;
     let index = inputs::parameter(loaded, "--over", name)?;
     let parameter = &loaded.spec.parameters[index];
-    let (lower, upper) = parse_range(range, parameter.dimension)?;
+    let (lower, upper) = parse_range(range, parameter.dimension).map_err(inputs::given("--over", text))?;
     if upper - lower <= NO_RANGE * lower.abs().max(upper.abs()) {
         let at = format_quantity(lower, &parameter.unit);
         return Err(InputError(format!(
@@ -198,7 +187,7 @@ fn start(args: &ContinueArgs, parameter: &Parameter, own: f64, (lower, upper): (
     let Some(text) = &args.from else {
         return Ok(own.clamp(lower, upper));
     };
-    let value = parse_quantity(text, parameter.dimension)?;
+    let value = parse_quantity(text, parameter.dimension).map_err(inputs::given("--from", text))?;
     // An end that was written in the same way may differ by its rounding.
     let slack = NO_RANGE * (upper - lower);
     if value < lower - slack || value > upper + slack {
@@ -235,7 +224,7 @@ fn settings(args: &ContinueArgs, parameter: &Parameter, (lower, upper): (f64, f6
         ..Settings::default()
     };
     if let Some(text) = &args.step {
-        let step = parse_quantity(text, parameter.dimension)? / (upper - lower);
+        let step = parse_quantity(text, parameter.dimension).map_err(inputs::given("--step", text))? / (upper - lower);
         if !(SHORTEST_STEP..=1.0).contains(&step) {
             let [least, most] =
                 [SHORTEST_STEP * (upper - lower), upper - lower].map(|v| format_quantity(v, &parameter.unit));

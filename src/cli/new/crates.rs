@@ -1,8 +1,12 @@
 //! Where a new project finds the crates of gaitc: in the registry, or in sources on this machine.
 
 use super::InputError;
+use crate::files;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+
+/// A larger file is no manifest of a crate.
+const MOST_MANIFEST: u64 = 1 << 20;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -22,8 +26,8 @@ impl Crates {
             return Ok(Self::of_this_program());
         };
         let shown = folder.display();
-        let absolute =
-            std::path::absolute(folder).map_err(|error| InputError(format!("--crates `{shown}`: {error}")))?;
+        let absolute = std::path::absolute(folder)
+            .map_err(|error| InputError(format!("--crates: {}", files::FileError::reading(folder, error))))?;
         if absolute.to_str().is_none() {
             return Err(InputError(format!("--crates: `{shown}` is not UTF-8\n  help: choose another folder")));
         }
@@ -75,7 +79,8 @@ impl Crates {
 fn is_crate(folder: &Path, name: &str) -> bool {
     let line = format!("name = \"{name}\"");
     folder.to_str().is_some()
-        && std::fs::read_to_string(folder.join("Cargo.toml")).is_ok_and(|text| text.lines().any(|l| l.trim() == line))
+        && files::read_text(&folder.join("Cargo.toml"), MOST_MANIFEST)
+            .is_ok_and(|text| text.lines().any(|l| l.trim() == line))
 }
 
 /// A string as TOML writes it.

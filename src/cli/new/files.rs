@@ -1,6 +1,7 @@
 //! Writing a project: all of its files, or none.
 
 use super::InputError;
+use crate::files::FileError;
 use std::fs;
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ pub(super) fn create(folder: &Path, shown: &str, texts: &[(String, String)]) -> 
     if exists {
         let mut entries = fs::read_dir(folder).map_err(|error| match error.kind() {
             ErrorKind::NotADirectory => InputError(format!("`{shown}` is not a folder\n  help: choose another name")),
-            _ => InputError(format!("`{shown}`: {error}")),
+            _ => FileError::reading(folder, error).into(),
         })?;
         if entries.next().is_some() {
             let message = format!("`{shown}` is not empty, and nothing in it is overwritten");
@@ -19,7 +20,10 @@ pub(super) fn create(folder: &Path, shown: &str, texts: &[(String, String)]) -> 
         }
     }
     let result = if exists { fill(folder, texts) } else { make(folder, texts) };
-    result.map_err(|error| InputError(format!("the project cannot be written to `{shown}`: {error}")))
+    result.map_err(|error| {
+        let error = FileError::writing(Path::new(shown), error);
+        InputError(format!("the project cannot be written to `{shown}`: {}\n  help: {}", error.why(), error.help()))
+    })
 }
 
 /// A folder that is not there: written beside its place, then given its name.

@@ -1,6 +1,7 @@
 //! What a new project is called: its folder, and the model in it.
 
 use super::InputError;
+use crate::files::FileError;
 use gaitc_compiler::front::is_module_name;
 use std::path::{Component, Path, PathBuf};
 
@@ -45,7 +46,7 @@ pub(super) fn folder(given: &Path) -> Result<PathBuf, InputError> {
     if given.to_str().is_none() {
         return Err(InputError(format!("`{shown}` is not UTF-8\n  help: choose another folder")));
     }
-    let absolute = std::path::absolute(given).map_err(|error| InputError(format!("`{shown}`: {error}")))?;
+    let absolute = std::path::absolute(given).map_err(|error| FileError::writing(given, error))?;
     // Cargo puts the folder into lists of paths, and talks to build scripts in lines.
     if absolute.to_string_lossy().chars().any(char::is_control) || std::env::join_paths([&absolute]).is_err() {
         let message = format!("cargo cannot build in `{}`", absolute.display().to_string().escape_debug());

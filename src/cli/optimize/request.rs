@@ -18,16 +18,17 @@ pub(super) fn problem(loaded: &Loaded, args: &OptimizeArgs) -> Result<(Model, Pr
     };
     let mut seen = Vec::new();
     for text in &args.vary {
-        let (name, range) = parse_assignment(text)?;
+        let (name, range) = parse_assignment(text).map_err(inputs::given("--vary", text))?;
         let parameter = inputs::parameter(loaded, "--vary", name)?;
         inputs::once(&mut seen, "--vary", name)?;
-        let (lower, upper) = parse_range(range, spec.parameters[parameter].dimension)?;
+        let dimension = spec.parameters[parameter].dimension;
+        let (lower, upper) = parse_range(range, dimension).map_err(inputs::given("--vary", text))?;
         problem.vary.retain(|v| v.parameter != parameter);
         problem.vary.push(Vary { parameter, lower, upper });
     }
     robust::add(loaded, args, &mut problem)?;
     for text in &args.subject_to {
-        problem.constraints.push(parse_constraint(&mut spec, text)?);
+        problem.constraints.push(parse_constraint(&mut spec, text).map_err(inputs::given("--subject-to", text))?);
     }
     if let Some(period) = args.period {
         inputs::period(period)?;
@@ -80,7 +81,11 @@ pub(super) fn depends_on_what_varies(
 }
 
 fn fresh(spec: &mut Model, sense: Sense, text: &str) -> Result<Problem, InputError> {
-    let (objective, objective_dimension) = parse_objective(spec, text)?;
+    let flag = match sense {
+        Sense::Maximize => "--maximize",
+        Sense::Minimize => "--minimize",
+    };
+    let (objective, objective_dimension) = parse_objective(spec, text).map_err(inputs::given(flag, text))?;
     Ok(Problem {
         name: "from flags".to_owned(),
         default: false,

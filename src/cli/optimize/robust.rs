@@ -22,10 +22,11 @@ pub(super) struct Shown<'a> {
 pub(super) fn add(loaded: &Loaded, args: &OptimizeArgs, problem: &mut Problem) -> Result<(), InputError> {
     let mut seen = Vec::new();
     for text in &args.robust {
-        let (name, range) = parse_assignment(text)?;
+        let (name, range) = parse_assignment(text).map_err(inputs::given("--robust", text))?;
         let parameter = inputs::parameter(loaded, "--robust", name)?;
         inputs::once(&mut seen, "--robust", name)?;
-        let (lower, upper) = parse_range(range, loaded.spec.parameters[parameter].dimension)?;
+        let dimension = loaded.spec.parameters[parameter].dimension;
+        let (lower, upper) = parse_range(range, dimension).map_err(inputs::given("--robust", text))?;
         problem.robust.retain(|known| known.parameter != parameter);
         problem.robust.push(ir::Uncertain { parameter, lower, upper });
     }

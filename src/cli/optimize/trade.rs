@@ -5,17 +5,15 @@ mod report;
 
 use super::{Outcome, conflict, request};
 use crate::cli::args::OptimizeArgs;
-use crate::cli::{InputError, output, plots};
+use crate::cli::{InputError, output, plots, table_file};
 use crate::files;
 use crate::load::Loaded;
 use crate::problem::{Start, assemble};
 use crate::provenance::Provenance;
-use crate::table;
 use gaitc_compiler::ir::{self, Binary};
 use gaitc_runtime::optimize::{Aim, Origin, Problem, Settings, Solution, Status, TradeOutcome, trade};
 use quantity::Quantity;
 use report::Report;
-use std::path::Path;
 
 /// More points than this show nothing new and would run for days.
 const MOST_POINTS: usize = 10_000;
@@ -66,10 +64,8 @@ pub(super) fn run(
         output::print(&report.text());
     }
     if let TradeOutcome::Curve(curve) = &outcome {
-        if let Some(path) = &args.out
-            && let Err(error) = table::write(&report.table(curve), path, provenance)
-        {
-            output::lose(&not_written(path, &error));
+        if let Some(path) = &args.out {
+            table_file::save("--out", path, &report.table(curve), provenance);
         }
         if let Some(path) = &args.plot {
             plots::save("--plot", path, &report.picture(curve), provenance);
@@ -96,14 +92,9 @@ fn places(args: &OptimizeArgs) -> Result<(), InputError> {
         plots::check("--plot", path)?;
     }
     if let Some(path) = &args.out {
-        table::Format::of(path).map_err(|error| InputError(format!("--out {error}")))?;
-        files::try_place(path).map_err(|error| InputError(not_written(path, &error)))?;
+        table_file::check("--out", path)?;
     }
     Ok(())
-}
-
-fn not_written(path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("--out {}: {error}\n  help: name a file in a folder that exists and can be written", path.display())
 }
 
 impl<'l> Trade<'l> {

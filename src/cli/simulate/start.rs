@@ -60,12 +60,13 @@ pub(super) fn of(
     let (mut seen, states) = (Vec::new(), &loaded.spec.states);
     let names: Vec<&str> = loaded.coordinates().iter().map(|&i| states[i].name.as_str()).collect();
     for text in &args.from {
-        let (name, quantity) = parse_assignment(text)?;
+        let (name, quantity) = parse_assignment(text).map_err(inputs::given("--from", text))?;
         let Some(index) = names.iter().position(|n| *n == name) else {
             return Err(inputs::unknown("--from", "section coordinate", name, &names));
         };
         inputs::once(&mut seen, "--from", name)?;
-        values[index] = parse_quantity(quantity, states[loaded.coordinates()[index]].dimension)?;
+        values[index] = parse_quantity(quantity, states[loaded.coordinates()[index]].dimension)
+            .map_err(inputs::given("--from", text))?;
     }
     Ok(Ok(Start::Section(values)))
 }
@@ -76,7 +77,7 @@ pub(super) fn memory(loaded: &Loaded, given: &[String]) -> Result<Vec<f64>, Inpu
     let mut seen = Vec::new();
     let names: Vec<&str> = loaded.spec.memory.iter().map(|m| m.name.as_str()).collect();
     for text in given {
-        let (name, number) = parse_assignment(text)?;
+        let (name, number) = parse_assignment(text).map_err(inputs::given("--memory", text))?;
         let Some(index) = names.iter().position(|n| *n == name) else {
             return Err(inputs::unknown("--memory", "memory", name, &names));
         };
@@ -122,7 +123,7 @@ fn state(loaded: &Loaded, args: &SimulateArgs) -> Result<Start, InputError> {
         spec.states.iter().enumerate().filter(|(i, _)| has(*i)).map(|(_, s)| s.name.as_str()).collect();
     let (mut values, mut seen) = (vec![0.0; spec.states.len()], Vec::new());
     for text in &args.state {
-        let (name, quantity) = parse_assignment(text)?;
+        let (name, quantity) = parse_assignment(text).map_err(inputs::given("--state", text))?;
         let Some(index) = spec.states.iter().position(|s| s.name == name) else {
             return Err(inputs::unknown("--state", "state", name, &names));
         };
@@ -132,7 +133,8 @@ fn state(loaded: &Loaded, args: &SimulateArgs) -> Result<Start, InputError> {
             return Err(InputError(format!("--state: mode `{in_mode}` has no state `{name}`\n  help: {help}")));
         }
         inputs::once(&mut seen, "--state", name)?;
-        values[index] = parse_quantity(quantity, spec.states[index].dimension)?;
+        values[index] =
+            parse_quantity(quantity, spec.states[index].dimension).map_err(inputs::given("--state", text))?;
     }
     let missing: Vec<&str> = names.iter().copied().filter(|name| !seen.contains(name)).collect();
     if !missing.is_empty() {
@@ -144,7 +146,7 @@ fn state(loaded: &Loaded, args: &SimulateArgs) -> Result<Start, InputError> {
     }
     let tau = match &args.tau {
         None => 0.0,
-        Some(text) => parse_quantity(text, Dimension::TIME)?,
+        Some(text) => parse_quantity(text, Dimension::TIME).map_err(inputs::given("--tau", text))?,
     };
     if tau < 0.0 {
         return Err(InputError(

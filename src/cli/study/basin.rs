@@ -94,16 +94,17 @@ impl<'l> Starts<'l> {
         let names: Vec<&str> = loaded.coordinates().iter().map(|&i| states[i].name.as_str()).collect();
         let (mut over, mut values, mut seen) = (Vec::new(), Vec::new(), Vec::new());
         for text in &args.over {
-            let (name, rest) = parse_assignment(text)?;
+            let (name, rest) = parse_assignment(text).map_err(inputs::given("--over", text))?;
             let Some(index) = names.iter().position(|known| *known == name) else {
                 return Err(inputs::unknown("--over", "section coordinate", name, &names));
             };
             inputs::once(&mut seen, "--over", name)?;
             over.push(index);
-            values.push((name, parse_values(rest, states[loaded.coordinates()[index]].dimension)?));
+            let dimension = states[loaded.coordinates()[index]].dimension;
+            values.push((name, parse_values(rest, dimension).map_err(inputs::given("--over", text))?));
         }
         for text in &args.search.guess {
-            let (name, _) = parse_assignment(text)?;
+            let (name, _) = parse_assignment(text).map_err(inputs::given("--guess", text))?;
             if seen.contains(&name) {
                 return Err(InputError(format!(
                     "--guess: `{name}` takes the values of --over\n  help: leave one of --guess and --over away"

@@ -1,9 +1,9 @@
 //! `gaitc merge DIR...`: one table, or one folder, from the shards of a study.
 
 use super::args::MergeArgs;
-use super::run;
+use super::run::put_tables;
 use crate::cli::args::Cli;
-use crate::cli::{InputError, Outcome, output};
+use crate::cli::{InputError, Outcome, output, table_file};
 use crate::study::{Folder, finish, merge};
 use crate::words::counted;
 use serde_json::json;
@@ -13,7 +13,7 @@ pub(crate) fn run(cli: &Cli, args: &MergeArgs) -> Result<Outcome, InputError> {
     for (flag, path) in [("--out", &args.out), ("--dir", &args.dir)] {
         path.as_deref().map_or(Ok(()), |path| outside(flag, path, &args.folders))?;
     }
-    args.out.as_deref().map_or(Ok(()), run::place)?;
+    args.out.as_deref().map_or(Ok(()), |path| table_file::check("--out", path))?;
     let folders: Vec<Folder> = args.folders.iter().map(|path| Folder::read(path)).collect::<Result<_, _>>()?;
     let mut merged = merge(&folders)?;
     let (manifest, warnings) = (merged.manifest().clone(), std::mem::take(&mut merged.warnings));
@@ -24,12 +24,12 @@ pub(crate) fn run(cli: &Cli, args: &MergeArgs) -> Result<Outcome, InputError> {
     let table = finish(manifest.kind, merged.rows());
     let mut written = Vec::new();
     if let Some(folder) = &folder {
-        run::put_tables(folder, &table, &provenance)?;
+        put_tables(folder, &table, &provenance)?;
         let (folder, kind) = (folder.path().display(), manifest.kind.name());
         written.extend([format!("{folder}/{kind}.csv"), format!("{folder}/{kind}.parquet")]);
     }
     if let Some(out) = &args.out {
-        run::save(&table, out, &provenance);
+        table_file::save("--out", out, &table, &provenance);
         written.extend((!output::lost()).then(|| out.display().to_string()));
     }
     if cli.json {

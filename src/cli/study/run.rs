@@ -1,15 +1,13 @@
 //! Runs a study chunk by chunk, keeps what is done, and writes the table.
 
 use super::args::StorageArgs;
-use crate::cli::{InputError, output};
-use crate::files;
+use crate::cli::{InputError, output, table_file};
 use crate::progress::Progress;
 use crate::provenance::Provenance;
 use crate::study::{Folder, MOST_POINTS, Manifest, Shard, finish};
 use crate::table::{self, Format, Table};
 use gaitc_runtime::interrupt::Interrupt;
 use std::ops::Range;
-use std::path::Path;
 
 /// More points than this are too much to lose: they need a folder.
 const MOST_WITHOUT_FOLDER: u64 = 100_000;
@@ -70,13 +68,7 @@ pub(super) fn check(storage: &StorageArgs) -> Result<(), InputError> {
     if let Some(threads) = storage.threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
         return Err(InputError(format!("--threads {threads}: give a number from 1 to {MOST_THREADS}")));
     }
-    storage.out.as_deref().map_or(Ok(()), place)
-}
-
-/// Refuses a table's file that cannot be written.
-pub(super) fn place(path: &Path) -> Result<(), InputError> {
-    Format::of(path).map_err(|message| InputError(format!("--out: {message}")))?;
-    files::try_place(path).map_err(|error| InputError(format!("--out: cannot write `{}`: {error}", path.display())))
+    storage.out.as_deref().map_or(Ok(()), |path| table_file::check("--out", path))
 }
 
 impl Asked<'_> {
@@ -129,7 +121,7 @@ impl Asked<'_> {
         }
         folder.map_or(Ok(()), |folder| put_tables(folder, table, self.provenance))?;
         if let Some(path) = &self.storage.out {
-            save(table, path, self.provenance);
+            table_file::save("--out", path, table, self.provenance);
         }
         Ok(())
     }
@@ -142,11 +134,4 @@ pub(super) fn put_tables(folder: &Folder, table: &Table, provenance: &Provenance
         folder.put(&format!("{}.{ending}", folder.manifest().kind.name()), &bytes)?;
     }
     Ok(())
-}
-
-/// Writes `--out`. That it cannot be written (the disk is full) is said, and does not keep the rest from being shown.
-pub(super) fn save(table: &Table, path: &Path, provenance: &Provenance) {
-    if let Err(error) = table::write(table, path, provenance) {
-        output::lose(&format!("--out: cannot write `{}`: {error}", path.display()));
-    }
 }

@@ -91,11 +91,12 @@ impl<'l> Sweep<'l> {
     fn new(loaded: &'l Loaded, args: &SweepArgs) -> Result<Self, InputError> {
         let (mut swept, mut over, mut seen) = (Vec::new(), Vec::new(), Vec::new());
         for text in &args.over {
-            let (name, values) = parse_assignment(text)?;
+            let (name, values) = parse_assignment(text).map_err(inputs::given("--over", text))?;
             let parameter = inputs::parameter(loaded, "--over", name)?;
             inputs::once(&mut seen, "--over", name)?;
             swept.push(parameter);
-            over.push((name, parse_values(values, loaded.spec.parameters[parameter].dimension)?));
+            let dimension = loaded.spec.parameters[parameter].dimension;
+            over.push((name, parse_values(values, dimension).map_err(inputs::given("--over", text))?));
         }
         let design = match args.sobol {
             Some(count) => axes::sobol(&over, count, args.seed)?,

@@ -11,6 +11,7 @@ use super::spec::{Spec, Use};
 use super::text::Text;
 use super::{SIZE_LIMIT, long_line};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::files;
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -35,26 +36,9 @@ impl Library<'_> {
                 let text = texts.iter().find(|(other, _)| *other == name);
                 text.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "it is not there".to_owned())
             }
-            Self::Folder(folder) => file(&folder.join(name)),
+            Self::Folder(folder) => files::read_text(&folder.join(name), SIZE_LIMIT).map_err(|error| error.why()),
         }
     }
-}
-
-/// The text of a file, or why it cannot be read.
-fn file(path: &Path) -> Result<String, String> {
-    let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => error.to_string(),
-    })?;
-    if !metadata.is_file() {
-        // A device or a pipe may never end.
-        return Err("it is not a regular file".to_owned());
-    }
-    if metadata.len() > SIZE_LIMIT {
-        return Err(format!("it has {} bytes, and can have {SIZE_LIMIT}", metadata.len()));
-    }
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
 }
 
 /// Takes in all parts of a spec; `path` is how messages call the spec.

@@ -1,6 +1,6 @@
 //! The two quantities of `--trade A:B` and which way each is better.
 
-use crate::cli::InputError;
+use crate::cli::{InputError, inputs};
 use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::flags::parse_objective;
 use gaitc_compiler::front::{format_quantity, format_si, in_unit, si_unit};
@@ -63,8 +63,9 @@ pub(super) fn pair(spec: &mut Model, problem: &Problem, text: &str) -> Result<(Q
         return Err(wrong("both quantities are the same"));
     }
     // A name that is not there is a better reason than a sense that is not known.
-    parse_objective(spec, a)?;
-    parse_objective(spec, b)?;
+    for quantity in [a, b] {
+        parse_objective(spec, quantity).map_err(inputs::given("--trade", text))?;
+    }
     let known_a = sense_a.or_else(|| known(spec, problem, a));
     let known_b = sense_b.or_else(|| known(spec, problem, b));
     let (sense_a, sense_b) = match (known_a, known_b) {
