@@ -24,7 +24,7 @@ pub(crate) struct CompareArgs {
     /// Name of a compiled model; all that have published numbers without it
     #[arg(value_name = "MODEL")]
     pub(crate) model: Option<String>,
-    /// Draw the computed curves with published and computed means as horizontal lines, as SVG or PNG
+    /// Draw the computed curves with published and computed numbers as horizontal lines, as SVG or PNG
     #[arg(long, value_name = "FILE", requires = "model")]
     plot: Option<PathBuf>,
 }
@@ -67,7 +67,7 @@ pub(super) fn run(cli: &Cli, args: &CompareArgs) -> Result<Outcome, InputError> 
 /// The panels of all publications of a model, each with the name of its publication.
 fn picture(cli: &Cli, model: &Loaded) -> Result<Series, InputError> {
     let parsed = show::find(&model.spec.name, cli.specs.as_deref())?;
-    let title = format!("{}: computed motion, published means", model.spec.name);
+    let title = format!("{}: computed motion, published numbers", model.spec.name);
     let mut all = Series { title, x: label("time", "s"), ..Series::default() };
     let Some(sheet) = Sheet::new(&parsed) else { return Ok(all) };
     for published in &model.spec.published {

@@ -8,7 +8,7 @@ use super::{InputError, Outcome, inputs, output, provenance};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{Method, Warning};
+use gaitc_runtime::return_map::Method;
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
@@ -134,7 +134,8 @@ impl Report<'_> {
     fn all_warnings(&self) -> Vec<String> {
         let mut all = self.warnings.clone();
         if let Some(gait) = self.gait() {
-            all.extend(gait.map.warnings.iter().map(|w| self.warning(w)));
+            let warnings = gait.map.warnings.iter();
+            all.extend(warnings.map(|w| guards::warning(&self.loaded.spec, w, "the linearisation is not valid")));
             let measures = self.loaded.spec.measures.iter().zip(gait.map.measures.iter());
             let undefined = measures.filter(|(_, value)| !value.is_finite());
             all.extend(
@@ -142,25 +143,6 @@ impl Report<'_> {
             );
         }
         all
-    }
-
-    fn transition(&self, index: usize) -> &str {
-        self.loaded.spec.transitions.get(index).map_or("?", |t| &t.name)
-    }
-
-    fn warning(&self, warning: &Warning) -> String {
-        match *warning {
-            Warning::Grazing { transition, time, transversality } => format!(
-                "the guard of `{}` is only grazed at {time:.6} s (its rate there is {}): the linearisation is not valid",
-                self.transition(transition),
-                guards::rate(transversality, guards::dimension(&self.loaded.spec, transition))
-            ),
-            Warning::Tie { taken, other, time } => format!(
-                "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",
-                self.transition(taken),
-                self.transition(other)
-            ),
-        }
     }
 
     fn text(&self) -> String {

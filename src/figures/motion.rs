@@ -3,6 +3,7 @@
 use crate::load::Loaded;
 use crate::motion::{self, BodyPath};
 use crate::picture::{Curve, Event, Level, Panel, Path, Places, Series, Stretches, label};
+use gaitc_compiler::front::Observations;
 use gaitc_compiler::ir::{Joint, Observation};
 use gaitc_runtime::trajectory::Trajectory;
 
@@ -28,11 +29,20 @@ impl Run<'_> {
     /// `levels` names the horizontal lines that belong to an observation, with their values in SI units.
     #[must_use]
     pub fn over_time(&self, title: &str, levels: &dyn Fn(&Observation) -> Vec<(String, f64)>) -> Series {
-        let panels = self.loaded.observations.drawing().map_or(&[][..], |drawing| &drawing.panels);
-        let values =
-            |panel: &[Observation]| motion::observe(&self.loaded.observations, panel, self.parameters, self.trajectory);
-        let panels = panels.iter().map(|panel| self.panel(panel, &values(panel), levels)).collect();
+        let observations = &self.loaded.observations;
+        let panels = observations.drawing().map_or(&[][..], |drawing| &drawing.panels);
+        let panels = panels.iter().map(|panel| self.panel_of(observations, panel, levels)).collect();
         self.series(title, panels)
+    }
+
+    /// A panel of observations of one unit.
+    pub(super) fn panel_of(
+        &self,
+        observations: &Observations,
+        panel: &[Observation],
+        levels: &dyn Fn(&Observation) -> Vec<(String, f64)>,
+    ) -> Panel {
+        self.panel(panel, &motion::observe(observations, panel, self.parameters, self.trajectory), levels)
     }
 
     /// Panels over the time of the run, with its transitions.

@@ -125,12 +125,22 @@ fn values(study: &Study<'_>, gait: &Gait) -> Table {
     }
     rows.push(vec!["duration".to_owned(), format_quantity(gait.map.duration, "s"), "time of one step".to_owned()]);
     for (measure, &value) in spec.measures.iter().zip(gait.map.measures.iter()) {
-        rows.push(vec![measure.name.clone(), format_quantity(value, &measure.unit), measure.doc.clone()]);
+        let (shown, doc) = if value.is_finite() {
+            (format_quantity(value, &measure.unit), measure.doc.clone())
+        } else {
+            let why = "no number at these parameters: what it divides by is zero, or a function has no value there";
+            (
+                "–".to_owned(),
+                [measure.doc.as_str(), why].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; "),
+            )
+        };
+        rows.push(vec![measure.name.clone(), shown, doc]);
     }
     Table {
         caption: "The gait on its section, and its measures".to_owned(),
         header: texts(["quantity", "value", "what it is"]),
         rows,
+        names: true,
     }
 }
 
@@ -141,6 +151,7 @@ fn multipliers(gait: &Gait) -> Table {
         caption: "Multipliers: eigenvalues of the return map's derivative; the gait is stable where all have a magnitude below 1".to_owned(),
         header: texts(["magnitude", "real part", "imaginary part"]),
         rows: gait.multipliers.iter().map(row).collect(),
+        names: false,
     }
 }
 
@@ -163,6 +174,7 @@ fn parameters(study: &Study<'_>) -> Table {
         caption: "Values of this page".to_owned(),
         header: texts(["parameter", "value", "range", "what it is"]),
         rows,
+        names: true,
     }
 }
 

@@ -53,8 +53,10 @@ pub struct Table {
     pub caption: String,
     /// Names of the columns.
     pub header: Vec<String>,
-    /// The first column names the row.
+    /// The first column is the head of its row.
     pub rows: Vec<Vec<String>>,
+    /// Whether these heads are names of the spec.
+    pub names: bool,
 }
 
 /// A picture with what there is to say of it.
