@@ -133,15 +133,7 @@ impl Report<'_> {
     /// Of the input, of the linearisation, and of measures that are no numbers.
     fn all_warnings(&self) -> Vec<String> {
         let mut all = self.warnings.clone();
-        if let Some(gait) = self.gait() {
-            let warnings = gait.map.warnings.iter();
-            all.extend(warnings.map(|w| guards::warning(&self.loaded.spec, w, "the linearisation is not valid")));
-            let measures = self.loaded.spec.measures.iter().zip(gait.map.measures.iter());
-            let undefined = measures.filter(|(_, value)| !value.is_finite());
-            all.extend(
-                undefined.map(|(m, value)| format!("the measure `{}` is not a finite number ({value})", m.name)),
-            );
-        }
+        all.extend(self.gait().into_iter().flat_map(|gait| guards::of_gait(&self.loaded.spec, gait)));
         all
     }
 

@@ -7,6 +7,7 @@
 use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::{format_number, format_quantity, format_si, si_unit_like};
 use gaitc_compiler::ir::{AlsoZero, Direction, Model, Transition};
+use gaitc_runtime::orbit::Gait;
 use gaitc_runtime::return_map::{AlsoZeroAt, Event, MapResult, Passage, Warning};
 use gaitc_runtime::trajectory::Beyond;
 use serde_json::{Value, json};
@@ -149,6 +150,14 @@ pub(super) fn warning(spec: &Model, warning: &Warning, grazed: &str) -> String {
     }
 }
 
+/// What to know of a gait: guards that it grazes, transitions that fire together, measures that are no numbers.
+pub(super) fn of_gait(spec: &Model, gait: &Gait) -> Vec<String> {
+    let warnings = gait.map.warnings.iter().map(|w| warning(spec, w, "the linearisation is not valid"));
+    let measures = spec.measures.iter().zip(gait.map.measures.iter()).filter(|(_, value)| !value.is_finite());
+    let undefined = measures.map(|(m, value)| format!("the measure `{}` is not a finite number ({value})", m.name));
+    warnings.chain(undefined).collect()
+}
+
 /// One sentence for a run that starts on the far side of a guard: by how much, and what follows. Nothing of surfaces, where
 /// nothing changes.
 pub(super) fn beyond(spec: &Model, beyond: &Beyond) -> Option<String> {
@@ -159,7 +168,7 @@ pub(super) fn beyond(spec: &Model, beyond: &Beyond) -> Option<String> {
         _ => ("falls", "positive"),
     };
     let place = match beyond.at_zero {
-        true => format!("is zero there and its rate {}", rate(beyond.rate, *guard_dimension)),
+        true => format!("is zero there and its rate is {}", rate(beyond.rate, *guard_dimension)),
         false => format!("is {} there", format_si(beyond.value, *guard_dimension)),
     };
     Some(format!(

@@ -149,10 +149,18 @@ fn panels(
         let drawn = panels.panels.iter().flatten().find(|known| bare(&known.name) == bare(expression)).cloned();
         // An expression of the spec is one that can be observed, but for what only a map knows, as in `d(x, x_0)`.
         let Some(observation) = drawn.or_else(|| observations.observe(expression).ok()) else { continue };
-        let line = |who: &str, value: f64| (level(&format!("{kind}, {who}"), &observation, sign * value), sign * value);
+        let line = |who: &str, value: f64| {
+            let spread = number.spread.filter(|_| who == "published");
+            let spread = spread.map_or(String::new(), |by| format!(" ± {}", format_quantity(by, &observation.unit)));
+            (level(&format!("{kind}, {who}"), &observation, sign * value) + &spread, sign * value)
+        };
         let theirs = line("published", number.value);
+        // Both ends of the spread, as the published line and without names.
+        let spread = number.spread.into_iter().flat_map(|by| [number.value - by, number.value + by]);
+        let spread = spread.map(|value| (String::new(), sign * value));
         let ours = comparison.computed(number).map(|value| line("computed", value));
-        panels.add(observation.clone(), std::iter::once(theirs).chain(ours).collect());
+        let levels = std::iter::once(theirs).chain(spread).chain(ours).collect();
+        panels.add(observation, levels);
     }
     panels
 }

@@ -48,7 +48,7 @@ fn table(loaded: &Loaded, comparison: &published::Comparison<'_>) -> Table {
             comparison.computed(number).map_or("–".to_owned(), |value| format_quantity(value, &number.unit));
         let deviation = comparison.deviation(number).map_or("–".to_owned(), |by| format!("{:+.2} %", 100.0 * by));
         let name = published::name(loaded, number).to_owned();
-        vec![name, format_quantity(number.value, &number.unit), computed, deviation]
+        vec![name, published::shown(number), computed, deviation]
     };
     Table {
         caption: "Published beside computed".to_owned(),

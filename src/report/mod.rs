@@ -9,6 +9,7 @@ mod comparison;
 mod equations;
 mod html;
 mod page;
+mod run;
 
 pub use animation::Animation;
 pub use collect::{Study, contents};

@@ -25,7 +25,7 @@ use gaitc_runtime::study::continuation::{
     ContinuationOutcome, ContinuationRequest, Diagram, EndReason, Settings, follow,
 };
 use shown::Shown;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Status of a diagram that Ctrl-C ended.
 const INTERRUPTED: &str = "interrupted";
@@ -87,7 +87,18 @@ fn places(args: &ContinueArgs) -> Result<(), InputError> {
         table::Format::of(path).map_err(|error| InputError(format!("--out: {error}")))?;
         files::try_place(path).map_err(|error| not_written(path, &error))?;
     }
-    args.plot.as_deref().map_or(Ok(()), |path| plots::check("--plot", path))
+    let all = [("--out", &args.out), ("--plot", &args.plot), ("--plot-multipliers", &args.plot_multipliers)];
+    for (i, (flag, path)) in all.iter().enumerate() {
+        let Some(path) = path else { continue };
+        if *flag != "--out" {
+            plots::check(flag, path)?;
+        }
+        let same = |other: &Option<PathBuf>| other.as_ref().is_some_and(|other| files::is_same(other, path));
+        if let Some((other, _)) = all.iter().take(i).find(|(_, earlier)| same(earlier)) {
+            return Err(InputError(format!("{other} and {flag} name the same file\n  help: name two")));
+        }
+    }
+    Ok(())
 }
 
 fn not_written(path: &Path, error: &dyn std::fmt::Display) -> InputError {
@@ -130,6 +141,9 @@ impl Report<'_> {
         }
         if let Some(path) = &self.args.plot {
             plots::save("--plot", path, &self.picture(diagram), provenance);
+        }
+        if let Some(path) = &self.args.plot_multipliers {
+            plots::save("--plot-multipliers", path, &self.multipliers(diagram), provenance);
         }
     }
 

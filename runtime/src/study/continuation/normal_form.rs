@@ -21,10 +21,20 @@ use nalgebra::{Complex, DMatrix, DVector};
 const STEPS: [f64; 3] = [0.02, 0.01, 0.005];
 /// Coefficients of a step and of its half that differ by more than this part say nothing.
 const AGREE: f64 = 0.2;
+/// A coefficient whose terms cancel down to this part of them is zero: as of a map that preserves areas, whose swings keep any size.
+const CANCELS: f64 = 0.01;
 /// Multipliers whose first, second, third or fourth power is this near to 1 are in strong resonance: the normal form is another one.
 const RESONANT: f64 = 0.05;
 /// How far from the circle the pair may be.
 const NEAR: f64 = 1e-4;
+
+/// The coefficient a.
+#[derive(Clone, Copy, Debug)]
+struct Coefficient {
+    value: f64,
+    /// The sum of the magnitudes of its three terms.
+    terms: f64,
+}
 
 /// The pair on the circle with its eigenvectors.
 struct Pair {
@@ -35,8 +45,8 @@ struct Pair {
 }
 
 impl System<'_> {
-    /// On which side of a Neimark-Sacker bifurcation there are lasting swings; `None` in strong resonance, and where two steps of the
-    /// differences do not agree on it.
+    /// On which side of a Neimark-Sacker bifurcation there are lasting swings; `None` in strong resonance, where the
+    /// coefficient is zero, and where two steps of the differences do not agree on it.
     pub(super) fn swing(&self, at: &Sample) -> Result<Option<Criticality>, RequestError> {
         let jacobian = self.scaled(at);
         let Some(pair) = Pair::of(&jacobian) else { return Ok(None) };
@@ -48,9 +58,11 @@ impl System<'_> {
             let large = pair.coefficient(&jacobian, &at_displaced, step)?;
             let small = pair.coefficient(&jacobian, &at_displaced, 0.5 * step)?;
             if let (Some(large), Some(small)) = (large, small)
-                && (large - small).abs() <= AGREE * small.abs()
+                && (large.value - small.value).abs() <= AGREE * small.value.abs()
             {
-                return Ok(Some(if small < 0.0 { Criticality::Supercritical } else { Criticality::Subcritical }));
+                let zero = small.value.abs() <= CANCELS * small.terms;
+                let side = if small.value < 0.0 { Criticality::Supercritical } else { Criticality::Subcritical };
+                return Ok(Some(side).filter(|_| !zero));
             }
         }
         Ok(None)
@@ -85,7 +97,7 @@ impl Pair {
         jacobian: &DMatrix<f64>,
         at: &impl Fn(&DVector<f64>) -> Result<Option<DMatrix<f64>>, E>,
         step: f64,
-    ) -> Result<Option<f64>, E> {
+    ) -> Result<Option<Coefficient>, E> {
         let parts = [self.right.map(|v| v.re), self.right.map(|v| v.im)];
         let (mut second, mut third) = (Vec::new(), DMatrix::zeros(jacobian.nrows(), jacobian.ncols()));
         for part in &parts {
@@ -104,9 +116,10 @@ impl Pair {
         let still = solve(&unit - &j, &b * q.conjugate());
         let twice = solve(&unit * (self.multiplier * self.multiplier) - &j, &b * q);
         let (Some(still), Some(twice)) = (still, twice) else { return Ok(None) };
-        let all = complex(&third) * q + &b * still * Complex::new(2.0, 0.0) + b_conjugate * twice;
-        let value = 0.5 * (self.multiplier.conj() * self.left.dotc(&all)).re;
-        Ok(value.is_finite().then_some(value))
+        let terms = [complex(&third) * q, &b * still * Complex::new(2.0, 0.0), b_conjugate * twice];
+        let terms = terms.map(|term| 0.5 * (self.multiplier.conj() * self.left.dotc(&term)).re);
+        let [value, terms] = [terms.iter().sum(), terms.iter().map(|term| term.abs()).sum::<f64>()];
+        Ok(terms.is_finite().then_some(Coefficient { value, terms }))
     }
 }
 
@@ -123,11 +136,11 @@ fn null_vector(matrix: &DMatrix<f64>, eigenvalue: Complex<f64>) -> Option<DVecto
 
 #[cfg(test)]
 mod tests {
-    use super::Pair;
+    use super::{CANCELS, Coefficient, Pair};
     use nalgebra::{DMatrix, DVector, dmatrix};
 
     /// The coefficient of a plane map by its derivative around 0.
-    fn coefficient(jacobian: impl Fn(f64, f64) -> DMatrix<f64>, step: f64) -> f64 {
+    fn coefficient(jacobian: impl Fn(f64, f64) -> DMatrix<f64>, step: f64) -> Coefficient {
         let origin = jacobian(0.0, 0.0);
         let at = |by: &DVector<f64>| Ok::<_, ()>(Some(jacobian(by[0], by[1])));
         let pair = Pair::of(&origin).unwrap_or_else(|| panic!("no pair"));
@@ -143,7 +156,7 @@ mod tests {
                 let turn = dmatrix![cosine, -sine; sine, cosine];
                 turn * dmatrix![1.0 + c * (3.0 * x * x + y * y), 2.0 * c * x * y; 2.0 * c * x * y, 1.0 + c * (x * x + 3.0 * y * y)]
             };
-            approx::assert_abs_diff_eq!(coefficient(map, 0.01), 2.0 * c, epsilon = 1e-9);
+            approx::assert_abs_diff_eq!(coefficient(map, 0.01).value, 2.0 * c, epsilon = 1e-9);
         }
     }
 
@@ -167,7 +180,16 @@ mod tests {
             let (_, image) = value(x, y);
             dmatrix![1.0, 2.0 * image; 0.0, 1.0] * slope(x, y) * dmatrix![1.0, -2.0 * v; 0.0, 1.0]
         };
-        approx::assert_abs_diff_eq!(coefficient(map, 0.001), 2.0 * c, epsilon = 1e-4);
+        approx::assert_abs_diff_eq!(coefficient(map, 0.001).value, 2.0 * c, epsilon = 1e-4);
+    }
+
+    /// Henon's map that preserves areas: x+ = x cos - (y - x^2) sin, y+ = x sin + (y - x^2) cos.
+    #[test]
+    fn where_areas_are_preserved_the_terms_cancel() {
+        let (sine, cosine) = 1.0_f64.sin_cos();
+        let map = |x: f64, _: f64| dmatrix![cosine + 2.0 * x * sine, -sine; sine - 2.0 * x * cosine, cosine];
+        let Coefficient { value, terms } = coefficient(map, 0.01);
+        assert!(terms > 0.1 && value.abs() < 1e-6 * CANCELS * terms, "{value} of {terms}");
     }
 
     #[test]
