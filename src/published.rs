@@ -2,6 +2,7 @@
 //! gives for each of its numbers.
 
 use crate::load::Loaded;
+use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Published, PublishedNumber, PublishedOf};
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
 use gaitc_runtime::return_map::RequestError;
@@ -64,6 +65,12 @@ impl Comparison<'_> {
         let computed = self.computed(number).filter(|_| number.value != 0.0)?;
         Some((computed - number.value) / number.value.abs())
     }
+}
+
+/// A published number in its own unit, with its spread.
+pub fn shown(number: &PublishedNumber) -> String {
+    let value = format_quantity(number.value, &number.unit);
+    number.spread.map_or(value.clone(), |spread| format!("{value} ± {}", format_quantity(spread, &number.unit)))
 }
 
 /// What a number is of, as the spec calls it.

@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
 mod maps;
+#[path = "agreement/measures.rs"]
+mod measures;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use gaitc::models::MODELS;

@@ -78,6 +78,7 @@ fn the_other_branch_of_a_transcritical_crossing_is_entered() {
     assert_eq!((all.branches.len(), all.not_entered.len()), (2, 0));
     let at = only(&all.branches[0], Kind::Branch);
     assert_abs_diff_eq!(at.point.value, 1.0, epsilon = 1e-9);
+    assert_eq!(at.criticality, Some(Criticality::Transcritical));
     let other = &all.branches[1];
     assert_eq!(kinds(other), []);
     assert_eq!((other.points[0].value, other.points.last().unwrap().value), (0.4, 2.0));
@@ -94,7 +95,9 @@ fn a_pitchfork_is_one_branch_point_from_stem_and_arm() {
     for (p, guess) in [(-0.5, 0.0), (0.25, 0.5)] {
         let all = run(&map, &[p], (-0.9, 0.9), &[guess], settings.clone());
         assert_eq!(all.branches.len(), 2, "from {guess}");
-        assert_abs_diff_eq!(only(&all.branches[0], Kind::Branch).point.value, 0.0, epsilon = 1e-8);
+        let at = only(&all.branches[0], Kind::Branch);
+        assert_abs_diff_eq!(at.point.value, 0.0, epsilon = 1e-8);
+        assert_eq!(at.criticality, Some(Criticality::Supercritical), "from {guess}");
         for branch in &all.branches {
             assert!(kinds(branch).iter().all(|kind| *kind == Kind::Branch), "{:?}", kinds(branch));
             let stem = branch.points.iter().all(|p| p.section[0].abs() < 1e-6);
@@ -106,6 +109,17 @@ fn a_pitchfork_is_one_branch_point_from_stem_and_arm() {
             let ends = if stem { [-0.9, 0.9] } else { [0.9, 0.9] };
             assert_eq!([first.value, last.value], ends);
         }
+    }
+}
+
+/// x+ = x + p x + x^3: the arms x = +-sqrt -p are there where the stem is still stable.
+#[test]
+fn a_subcritical_pitchfork_is_told_from_both_of_its_branches() {
+    let map = Formula::new(|&[x], &[p]| Some(([x + p * x + x * x * x], [[1.0 + p + 3.0 * x * x]], [[x]])));
+    for (p, guess) in [(-0.5, 0.0), (-0.25, 0.5)] {
+        let all = run(&map, &[p], (-0.9, 0.9), &[guess], Settings::default());
+        let at = only(&all.branches[0], Kind::Branch);
+        assert_eq!(at.criticality, Some(Criticality::Subcritical), "from {guess}");
     }
 }
 
@@ -134,10 +148,32 @@ fn the_delayed_logistic_map_begins_to_turn() {
     });
     let all = run(&map, &[1.5], (1.2, 2.3), &[0.3, 0.3], Settings::default());
     assert_eq!(kinds(&all.branches[0]), [Kind::NeimarkSacker]);
+    // At r = 2.02 starts from inside and from outside settle on the closed curve whose x is from 0.3596 to 0.6405.
+    assert_eq!(all.branches[0].bifurcations[0].criticality, Some(Criticality::Supercritical));
     let at = &all.branches[0].bifurcations[0].point;
     assert_abs_diff_eq!(at.value, 2.0, epsilon = 1e-10);
     assert_abs_diff_eq!(at.multipliers[0].re, 0.5, epsilon = 1e-10);
     assert_abs_diff_eq!(at.multipliers[0].norm(), 1.0, epsilon = 1e-10);
+}
+
+/// z+ = exp(i) z (1 + p + c |z|^2): swings of the size sqrt(-p/c), which attract where c < 0.
+#[test]
+fn the_side_of_lasting_swings_is_told() {
+    let map = Formula::new(|&[x, y], &[p, c]| {
+        let (s, k) = 1.0_f64.sin_cos();
+        let (turned, square) = ([k * x - s * y, s * x + k * y], x * x + y * y);
+        let grow = 1.0 + p + c * square;
+        let slope = |i: usize, z: f64, by: f64| by * grow + turned[i] * 2.0 * c * z;
+        let rows = [[slope(0, x, k), slope(0, y, -s)], [slope(1, x, s), slope(1, y, k)]];
+        let by_parameters = turned.map(|turned| [turned, turned * square]);
+        Some((turned.map(|turned| turned * grow), rows, by_parameters))
+    });
+    for (c, side) in [(-1.0, Criticality::Supercritical), (0.5, Criticality::Subcritical)] {
+        let all = run(&map, &[-0.1, c], (-0.2, 0.2), &[0.0, 0.0], Settings::default());
+        let at = only(&all.branches[0], Kind::NeimarkSacker);
+        assert_abs_diff_eq!(at.point.value, 0.0, epsilon = 1e-10);
+        assert_eq!(at.criticality, Some(side));
+    }
 }
 
 /// Two real multipliers whose product goes through 1 are no bifurcation.

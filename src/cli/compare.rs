@@ -7,7 +7,7 @@ use crate::load::{Loaded, load};
 use crate::models::MODELS;
 use crate::picture::{Series, label};
 use crate::provenance::Provenance;
-use crate::published::{Comparison, compare, name};
+use crate::published::{self, Comparison, compare, name};
 use clap::Args;
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::PublishedNumber;
@@ -24,7 +24,7 @@ pub(crate) struct CompareArgs {
     /// Name of a compiled model; all that have published numbers without it
     #[arg(value_name = "MODEL")]
     pub(crate) model: Option<String>,
-    /// Draw the computed curves with published and computed means as horizontal lines, as SVG or PNG
+    /// Draw the computed curves with published and computed numbers as horizontal lines, as SVG or PNG
     #[arg(long, value_name = "FILE", requires = "model")]
     plot: Option<PathBuf>,
 }
@@ -59,7 +59,13 @@ pub(super) fn run(cli: &Cli, args: &CompareArgs) -> Result<Outcome, InputError> 
     }
     if let (Some(path), [model]) = (&args.plot, &loaded[..]) {
         let provenance = provenance::of(&cli.run, model, &model.parameters());
-        plots::save("--plot", path, &picture(cli, model)?, &provenance);
+        let picture = picture(cli, model)?;
+        if picture.panels.is_empty() {
+            let why = "none of the published numbers is a value of a curve (the mean, the largest, the least, ... of something)";
+            output::warning(&format!("--plot {}: not drawn, since {why}", path.display()));
+        } else {
+            plots::save("--plot", path, &picture, &provenance);
+        }
     }
     Ok(outcome)
 }
@@ -67,13 +73,13 @@ pub(super) fn run(cli: &Cli, args: &CompareArgs) -> Result<Outcome, InputError> 
 /// The panels of all publications of a model, each with the name of its publication.
 fn picture(cli: &Cli, model: &Loaded) -> Result<Series, InputError> {
     let parsed = show::find(&model.spec.name, cli.specs.as_deref())?;
-    let title = format!("{}: computed motion, published means", model.spec.name);
+    let title = format!("{}: computed motion, published numbers", model.spec.name);
     let mut all = Series { title, x: label("time", "s"), ..Series::default() };
     let Some(sheet) = Sheet::new(&parsed) else { return Ok(all) };
     for published in &model.spec.published {
         let mut series = figures::published(model, &sheet, &compare(model, published)?)?;
         for panel in &mut series.panels {
-            let mine = panel.levels.iter_mut();
+            let mine = panel.levels.iter_mut().filter(|level| !level.name.is_empty());
             mine.for_each(|level| level.name = format!("{}, {}", published.name, level.name));
         }
         all.panels.append(&mut series.panels);
@@ -136,10 +142,10 @@ fn text(model: &Loaded, comparison: &Comparison<'_>) -> String {
         text += &format!("{}: {}\n", outcome.status.name(), outcome.message);
     }
     let row = |number: &PublishedNumber| {
-        let shown = |value: Option<f64>| value.map_or("-".to_owned(), |value| format_quantity(value, &number.unit));
+        let computed = comparison.computed(number);
+        let computed = computed.map_or("-".to_owned(), |value| format_quantity(value, &number.unit));
         let deviation = comparison.deviation(number).map_or("-".to_owned(), percent);
-        let (published, computed) = (shown(Some(number.value)), shown(comparison.computed(number)));
-        vec![name(model, number).to_owned(), published, computed, deviation]
+        vec![name(model, number).to_owned(), published::shown(number), computed, deviation]
     };
     let rows = published.numbers.iter().map(row);
     text + "\n" + &output::table(&["quantity", "published", "computed", "deviation"], rows)
@@ -159,6 +165,7 @@ fn object(model: &Loaded, comparison: &Comparison<'_>) -> Value {
         json!({
             "name": name(model, number),
             "published": number.value,
+            "spread": number.spread,
             "computed": comparison.computed(number),
             "deviation": comparison.deviation(number),
         })

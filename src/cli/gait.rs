@@ -8,7 +8,7 @@ use super::{InputError, Outcome, inputs, output, provenance};
 use crate::load::{Loaded, load};
 use gaitc_compiler::front::format_quantity;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
-use gaitc_runtime::return_map::{Method, Warning};
+use gaitc_runtime::return_map::Method;
 use serde_json::{Map, Value, json};
 
 /// What a JSON answer says of a gait.
@@ -133,34 +133,8 @@ impl Report<'_> {
     /// Of the input, of the linearisation, and of measures that are no numbers.
     fn all_warnings(&self) -> Vec<String> {
         let mut all = self.warnings.clone();
-        if let Some(gait) = self.gait() {
-            all.extend(gait.map.warnings.iter().map(|w| self.warning(w)));
-            let measures = self.loaded.spec.measures.iter().zip(gait.map.measures.iter());
-            let undefined = measures.filter(|(_, value)| !value.is_finite());
-            all.extend(
-                undefined.map(|(m, value)| format!("the measure `{}` is not a finite number ({value})", m.name)),
-            );
-        }
+        all.extend(self.gait().into_iter().flat_map(|gait| guards::of_gait(&self.loaded.spec, gait)));
         all
-    }
-
-    fn transition(&self, index: usize) -> &str {
-        self.loaded.spec.transitions.get(index).map_or("?", |t| &t.name)
-    }
-
-    fn warning(&self, warning: &Warning) -> String {
-        match *warning {
-            Warning::Grazing { transition, time, transversality } => format!(
-                "the guard of `{}` is only grazed at {time:.6} s (its rate there is {}): the linearisation is not valid",
-                self.transition(transition),
-                guards::rate(transversality, guards::dimension(&self.loaded.spec, transition))
-            ),
-            Warning::Tie { taken, other, time } => format!(
-                "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",
-                self.transition(taken),
-                self.transition(other)
-            ),
-        }
     }
 
     fn text(&self) -> String {

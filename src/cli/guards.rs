@@ -5,9 +5,11 @@
 //! guard that crosses flatly makes a bad event, one that only touches zero (g' = 0) makes none.
 
 use gaitc_compiler::dimension::Dimension;
-use gaitc_compiler::front::{format_number, format_quantity, format_si};
-use gaitc_compiler::ir::{AlsoZero, Model, Transition};
-use gaitc_runtime::return_map::{AlsoZeroAt, Event, MapResult, Passage};
+use gaitc_compiler::front::{format_number, format_quantity, format_si, si_unit_like};
+use gaitc_compiler::ir::{AlsoZero, Direction, Model, Transition};
+use gaitc_runtime::orbit::Gait;
+use gaitc_runtime::return_map::{AlsoZeroAt, Event, MapResult, Passage, Warning};
+use gaitc_runtime::trajectory::Beyond;
 use serde_json::{Value, json};
 
 use super::output;
@@ -43,6 +45,7 @@ impl Guards<'_> {
                 "guard": self.text_of(e.transition),
                 "time": e.time,
                 "transversality": e.transversality,
+                "transversality_unit": rate_unit(self.spec, e.transition),
                 "fastest": e.fastest,
             })
         };
@@ -123,6 +126,55 @@ fn percent(fraction: f64) -> String {
 /// The dimension of a transition's guard.
 pub(super) fn dimension(spec: &Model, transition: usize) -> Dimension {
     spec.transitions.get(transition).map_or(Dimension::NONE, |t| t.guard_dimension)
+}
+
+/// The SI unit of the rate of a transition's guard; empty where it has none.
+pub(super) fn rate_unit(spec: &Model, transition: usize) -> String {
+    dimension(spec, transition).div(Dimension::TIME).map(|rate| si_unit_like(rate, "")).unwrap_or_default()
+}
+
+/// One sentence for what a run warns of. `grazed` is what a guard that is only grazed means for the result.
+pub(super) fn warning(spec: &Model, warning: &Warning, grazed: &str) -> String {
+    let name = |index: usize| spec.transitions.get(index).map_or("?", |t| &t.name);
+    match *warning {
+        Warning::Grazing { transition, time, transversality } => format!(
+            "the guard of `{}` is only grazed at {time:.6} s (its rate there is {}): {grazed}",
+            name(transition),
+            rate(transversality, dimension(spec, transition))
+        ),
+        Warning::Tie { taken, other, time } => format!(
+            "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",
+            name(taken),
+            name(other)
+        ),
+    }
+}
+
+/// What to know of a gait: guards that it grazes, transitions that fire together, measures that are no numbers.
+pub(super) fn of_gait(spec: &Model, gait: &Gait) -> Vec<String> {
+    let warnings = gait.map.warnings.iter().map(|w| warning(spec, w, "the linearisation is not valid"));
+    let measures = spec.measures.iter().zip(gait.map.measures.iter()).filter(|(_, value)| !value.is_finite());
+    let undefined = measures.map(|(m, value)| format!("the measure `{}` is not a finite number ({value})", m.name));
+    warnings.chain(undefined).collect()
+}
+
+/// One sentence for a run that starts on the far side of a guard: by how much, and what follows. Nothing of surfaces, where
+/// nothing changes.
+pub(super) fn beyond(spec: &Model, beyond: &Beyond) -> Option<String> {
+    let transition = spec.transitions.get(beyond.transition).filter(|transition| !transition.surface)?;
+    let Transition { name, guard_text, direction, guard_dimension, .. } = transition;
+    let (way, side) = match direction {
+        Direction::Rising => ("rises", "negative"),
+        _ => ("falls", "positive"),
+    };
+    let place = match beyond.at_zero {
+        true => format!("is zero there and its rate is {}", rate(beyond.rate, *guard_dimension)),
+        false => format!("is {} there", format_si(beyond.value, *guard_dimension)),
+    };
+    Some(format!(
+        "the start is beyond the guard of `{name}`: `{guard_text}` {place}, and `{name}` waits until that {way} through zero; start \
+         where it is {side}"
+    ))
 }
 
 /// A rate of a function of this dimension, in SI units.

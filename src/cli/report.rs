@@ -1,7 +1,7 @@
 //! `gaitc report MODEL`: one HTML page with everything there is to say of a model.
 
 use super::args::{Cli, ModelArgs, SearchArgs};
-use super::{InputError, Outcome, inputs, output, provenance, show};
+use super::{InputError, Outcome, guards, inputs, output, provenance, show};
 use crate::files;
 use crate::load::{Loaded, load};
 use crate::report::{Study, contents, page};
@@ -50,6 +50,10 @@ pub(super) fn run(cli: &Cli, args: &ReportArgs) -> Result<Outcome, InputError> {
     let tolerance = request.tolerance.max(10.0 * accuracy.relative);
     let request = loaded.spec.section.is_some().then_some(GaitRequest { accuracy, tolerance, ..request });
     let outcome = request.as_ref().map(|request| find_gait(loaded.compiled, request, &guess)).transpose()?;
+    let gait = outcome.as_ref().filter(|outcome| outcome.status == GaitStatus::Converged);
+    let gait = gait.and_then(|outcome| outcome.gait.as_ref());
+    let mut warnings = inputs::outside_range(&loaded, &parameters);
+    warnings.extend(gait.into_iter().flat_map(|gait| guards::of_gait(&loaded.spec, gait)));
     let study = Study {
         loaded: &loaded,
         sheet: &sheet,
@@ -58,7 +62,7 @@ pub(super) fn run(cli: &Cli, args: &ReportArgs) -> Result<Outcome, InputError> {
         guess: &guess,
         outcome: outcome.as_ref(),
         steps: args.steps,
-        warnings: inputs::outside_range(&loaded, &parameters),
+        warnings,
     };
     let made = provenance::of(&cli.run, &loaded, &parameters);
     let text = page(&contents(&study, made.clone(), command(&loaded, &parameters, args))?);

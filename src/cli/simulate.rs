@@ -120,6 +120,7 @@ pub(super) fn run(cli: &Cli, args: &SimulateArgs) -> Result<Outcome, InputError>
         parameters: &parameters,
         memory: &memory,
         start: &start,
+        on_gait: args.gait,
         until,
         trajectory: &trajectory,
         observed: &observed,

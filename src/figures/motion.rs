@@ -3,14 +3,16 @@
 use crate::load::Loaded;
 use crate::motion::{self, BodyPath};
 use crate::picture::{Curve, Event, Level, Panel, Path, Places, Series, Stretches, label};
+use gaitc_compiler::front::Observations;
 use gaitc_compiler::ir::{Joint, Observation};
 use gaitc_runtime::trajectory::Trajectory;
 
 /// With more transitions than this none is drawn: their lines would be a grey area.
 const MOST_EVENTS: usize = 60;
 
-/// Names that find room beside an axis.
+/// Names that find room beside an axis: so many, or so many letters.
 const MOST_NAMES: usize = 2;
+const MOST_LETTERS: usize = 24;
 
 /// A run to be drawn.
 #[derive(Clone, Copy)]
@@ -28,11 +30,20 @@ impl Run<'_> {
     /// `levels` names the horizontal lines that belong to an observation, with their values in SI units.
     #[must_use]
     pub fn over_time(&self, title: &str, levels: &dyn Fn(&Observation) -> Vec<(String, f64)>) -> Series {
-        let panels = self.loaded.observations.drawing().map_or(&[][..], |drawing| &drawing.panels);
-        let values =
-            |panel: &[Observation]| motion::observe(&self.loaded.observations, panel, self.parameters, self.trajectory);
-        let panels = panels.iter().map(|panel| self.panel(panel, &values(panel), levels)).collect();
+        let observations = &self.loaded.observations;
+        let panels = observations.drawing().map_or(&[][..], |drawing| &drawing.panels);
+        let panels = panels.iter().map(|panel| self.panel_of(observations, panel, levels)).collect();
         self.series(title, panels)
+    }
+
+    /// A panel of observations of one unit.
+    pub(super) fn panel_of(
+        &self,
+        observations: &Observations,
+        panel: &[Observation],
+        levels: &dyn Fn(&Observation) -> Vec<(String, f64)>,
+    ) -> Panel {
+        self.panel(panel, &motion::observe(observations, panel, self.parameters, self.trajectory), levels)
     }
 
     /// Panels over the time of the run, with its transitions.
@@ -66,12 +77,14 @@ impl Run<'_> {
         panel
     }
 
-    /// A value a sample as a curve over time, with a gap between both sides of each transition.
+    /// A value a sample as a curve over time, with a gap between both sides of each transition, and of each switch, where it may
+    /// jump.
     pub fn points(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let samples = &self.trajectory.samples;
         let mut points = Vec::with_capacity(values.len());
         for (i, (&t, &value)) in samples.t.iter().zip(values).enumerate() {
-            if i > 0 && samples.segment.get(i - 1) != samples.segment.get(i) {
+            let one_time = samples.t.get(i.wrapping_sub(1)) == Some(&t);
+            if one_time || i > 0 && samples.segment.get(i - 1) != samples.segment.get(i) {
                 points.push((t, f64::NAN));
             }
             points.push((t, value));
@@ -111,7 +124,11 @@ impl Run<'_> {
 
 /// What stands beside an axis: the names as long as they are few.
 fn axis(names: &[&str], unit: &str) -> String {
-    if names.len() <= MOST_NAMES { label(&names.join(", "), unit) } else { unit.to_owned() }
+    let all = names.join(", ");
+    if names.len() <= MOST_NAMES || all.chars().count() <= MOST_LETTERS {
+        return label(&all, unit);
+    }
+    if matches!(unit, "" | "1") { String::new() } else { format!("[{unit}]") }
 }
 
 fn joint_name(joint: Joint, body: &BodyPath) -> String {

@@ -76,10 +76,12 @@ impl Branches {
     fn legend(&self) -> Vec<(String, Sample)> {
         let several = self.branches.iter().enumerate().filter(|(_, b)| !b.name.is_empty());
         let mut all: Vec<_> = several.map(|(i, b)| (b.name.clone(), Sample::Line(Self::stroke(i, true)))).collect();
-        let dashed = self.branches.iter().any(|b| b.pieces().iter().any(|(_, stable)| !stable));
-        if dashed {
-            let stroke = Stroke { ink: Ink::Muted, ..Self::stroke(0, false) };
-            all.push(("unstable".to_owned(), Sample::Line(stroke)));
+        // What full and dashed lines mean, in the colour of the only branch, or in none.
+        let ink = if self.branches.len() == 1 { palette::curve(0).ink } else { Ink::Muted };
+        for (name, stable) in [("stable", true), ("unstable", false)] {
+            if self.branches.iter().any(|b| b.pieces().iter().any(|(_, of_piece)| *of_piece == stable)) {
+                all.push((name.to_owned(), Sample::Line(Stroke { ink, ..Self::stroke(0, stable) })));
+            }
         }
         let labels = self.labels().into_iter().enumerate();
         all.extend(

@@ -30,6 +30,8 @@ pub struct Return {
 }
 
 const SIZE: f64 = 420.0;
+/// Most maps side by side: with more of them numbers would be too small on a page.
+const BESIDE: usize = 2;
 
 impl Return {
     fn ends(&self) -> (f64, f64) {
@@ -74,7 +76,7 @@ impl Picture for Cobweb {
     fn draw(&self) -> Canvas {
         let nothing = [Return::default()];
         let maps = if self.maps.is_empty() { &nothing[..] } else { &self.maps[..] };
-        let beside = if maps.len() == 4 { 2 } else { maps.len().min(3) };
+        let beside = maps.len().min(BESIDE);
         let axes: Vec<_> = maps.iter().map(|m| frame::vertical(m.ends(), SIZE)).collect();
         let indent = frame::left_of(&axes);
         let (wide, high) = (indent + SIZE + 10.0, SIZE + NUMBERS_BELOW + LABEL_BELOW + 8.0);

@@ -198,6 +198,11 @@ pub(super) fn heading(canvas: &mut Canvas, title: &str) -> f64 {
     heading_height(title)
 }
 
+/// Width that a title takes.
+pub(super) fn heading_width(title: &str) -> f64 {
+    font::width(title, TITLE) + 2.0 * MARGIN
+}
+
 /// Where the next thing may begin below a title.
 pub(super) fn heading_height(title: &str) -> f64 {
     if title.is_empty() { MARGIN } else { MARGIN + TITLE + 10.0 }
@@ -219,6 +224,11 @@ fn rows(entries: &[(String, Sample)], width: f64) -> (Vec<(Place, String)>, f64)
         x += wide + 18.0;
     }
     (places, if entries.is_empty() { 0.0 } else { (row + 1.0) * LEGEND_ROW })
+}
+
+/// Width of the widest entry of a legend.
+pub(super) fn legend_width(entries: &[(String, Sample)]) -> f64 {
+    entries.iter().map(|(name, _)| SAMPLE + 6.0 + font::width(name, SMALL)).fold(0.0, f64::max)
 }
 
 /// Height of a legend of that width.

@@ -42,7 +42,12 @@ pub struct Places {
 
 const LARGEST: (f64, f64) = (720.0, 720.0);
 const SMALLEST: f64 = 160.0;
+/// The widest legend that stands beside a frame.
 const LEGEND_BESIDE: f64 = 220.0;
+/// Room above a frame for the power of ten of its vertical axis.
+const FACTOR: f64 = 18.0;
+/// An extent that is a smaller part of the other than this is widened to it.
+const SLIMMEST: f64 = 0.02;
 
 impl Path {
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
@@ -81,13 +86,16 @@ impl Picture for Path {
         let entries = self.legend();
         // Beside a narrow frame there is room for the legend, above it there is none.
         let narrow = fit.size.0 < 0.6 * LARGEST.0;
-        let names = if narrow { LEGEND_BESIDE } else { fit.size.0 };
+        let names = if narrow { frame::legend_width(&entries).min(LEGEND_BESIDE) } else { fit.size.0 };
         let above = if narrow { 0.0 } else { frame::legend_height(&entries, names) };
-        let top = top + above + if y.is_scaled() { 18.0 } else { 0.0 };
+        let heading = top;
+        let top = top + above + if y.is_scaled() { FACTOR } else { 0.0 };
         let sides = Sides { left: indent, right: indent + fit.size.0, top, bottom: top + fit.size.1 };
-        canvas.width = sides.right + 2.0 * MARGIN + if narrow && !entries.is_empty() { LEGEND_BESIDE } else { 0.0 };
+        let beside = if narrow && !entries.is_empty() { MARGIN + names } else { 0.0 };
+        let title = frame::heading_width(&self.title).min(LARGEST.0);
+        canvas.width = (sides.right + 2.0 * MARGIN + beside).max(title);
         canvas.height = sides.bottom + NUMBERS_BELOW + LABEL_BELOW + MARGIN;
-        let corner = if narrow { (sides.right + MARGIN, top) } else { (indent, top - above) };
+        let corner = if narrow { (sides.right + MARGIN, top) } else { (indent, heading) };
         frame::heading(&mut canvas, &self.title);
         if narrow {
             for (row, entry) in entries.iter().enumerate() {
@@ -140,7 +148,16 @@ struct Fit {
 
 /// The largest frame with one scale; a narrow extent is widened, so that there is room for its axis.
 fn fitted(x: Option<(f64, f64)>, y: Option<(f64, f64)>) -> Fit {
-    let (mut x, mut y) = (aired(x, 0.05), aired(y, 0.05));
+    let length = |ends: Option<(f64, f64)>| ends.map_or(0.0, |(low, high)| high - low);
+    let slimmest = SLIMMEST * length(x).max(length(y));
+    let thick = |ends: Option<(f64, f64)>| match ends {
+        Some((low, high)) if high - low < slimmest => {
+            let more = 0.5 * (slimmest - (high - low));
+            Some((low - more, high + more))
+        }
+        other => other,
+    };
+    let (mut x, mut y) = (aired(thick(x), 0.05), aired(thick(y), 0.05));
     let room = (LARGEST.0 - 120.0, LARGEST.1 - 120.0);
     let (wide, high) = (x.1 - x.0, y.1 - y.0);
     let scale = (room.0 / wide).min(room.1 / high);

@@ -41,7 +41,7 @@ pub struct Curve {
 /// A reference value: a horizontal line over the whole panel.
 #[derive(Clone, Debug, Default)]
 pub struct Level {
-    /// For the legend.
+    /// For the legend; a level without a name is not in it.
     pub name: String,
     /// Where, on the vertical axis.
     pub value: f64,
@@ -62,8 +62,11 @@ const WIDTH: f64 = 720.0;
 const GAP: f64 = 14.0;
 
 impl Panel {
+    /// The levels of each curve have the same dashes in the same order; one without a name those of the level before it.
     fn level(&self, index: usize) -> Stroke {
-        palette::level(index, self.levels[index].curve.unwrap_or(self.curves.len() + index))
+        let level = &self.levels[index];
+        let before = self.levels.iter().take(index + 1).filter(|l| l.curve == level.curve && !l.name.is_empty());
+        palette::level(before.count().saturating_sub(1), level.curve.unwrap_or(self.curves.len() + index))
     }
 
     fn legend(&self) -> Vec<(String, Sample)> {

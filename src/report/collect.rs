@@ -1,5 +1,6 @@
 //! From a model and its gait to what the page shows.
 
+use super::run::capital;
 use super::{Animation, Contents, Figure, Table, comparison};
 use crate::figures::{self, Orbit, Run};
 use crate::load::Loaded;
@@ -10,10 +11,7 @@ use gaitc_compiler::ir::Observation;
 use gaitc_compiler::show::Sheet;
 use gaitc_runtime::orbit::{Gait, GaitOutcome, GaitRequest, GaitStatus};
 use gaitc_runtime::return_map::RequestError;
-use gaitc_runtime::trajectory::{FollowRequest, Sampling, Start, Trajectory, Until};
-
-/// Samples of a step in an animation.
-const SAMPLES_A_STEP: usize = 80;
+use gaitc_runtime::trajectory::Trajectory;
 
 /// What a page is made from.
 pub struct Study<'a> {
@@ -40,21 +38,6 @@ impl Study<'_> {
         let outcome = self.outcome.filter(|outcome| outcome.status == GaitStatus::Converged)?;
         outcome.gait.as_ref()
     }
-
-    /// Follows the machine: on its gait where there is one, else from the first guess.
-    fn follow(&self, steps: usize) -> Result<Option<Trajectory>, RequestError> {
-        let Some(request) = self.request else { return Ok(None) };
-        let start = self.gait().map_or(self.guess, |gait| gait.coordinates.as_slice());
-        let follow = FollowRequest {
-            start: Start::Section(start),
-            parameters: self.parameters,
-            memory: request.memory,
-            until: Until::Crossings(steps),
-            sampling: Sampling::Count(SAMPLES_A_STEP.saturating_mul(steps)),
-            accuracy: request.accuracy,
-        };
-        self.loaded.compiled.follow(&follow).map(Some)
-    }
 }
 
 /// Everything that the page shows.
@@ -71,7 +54,7 @@ pub fn contents(study: &Study<'_>, provenance: Provenance, command: String) -> R
         source: spec.source.clone(),
         summary: summary(study),
         animation: animation(study, trajectory.as_ref()),
-        gait: study.gait().map_or_else(Vec::new, |gait| vec![values(study, gait), multipliers(gait)]),
+        gait: study.gait().map_or_else(Vec::new, |gait| tables(study, gait)),
         figures: pictures(study, trajectory.as_ref())?,
         published: comparison::all(study)?,
         parameters: parameters(study),
@@ -85,6 +68,10 @@ fn summary(study: &Study<'_>) -> Vec<String> {
     let first = match (study.outcome, study.gait()) {
         (None, _) => "The model has no [section]: there is no return map, and no gait.".to_owned(),
         (Some(outcome), None) => format!("No gait was found: {}", outcome.message),
+        (Some(_), Some(gait)) if gait.multipliers.is_empty() => {
+            "The gait is stable: the section has no coordinates, so every step is the same, whatever came before."
+                .to_owned()
+        }
         (Some(_), Some(gait)) => {
             let (stable, other) =
                 if gait.spectral_radius < 1.0 { ("stable", "below") } else { ("not stable", "not below") };
@@ -116,6 +103,11 @@ fn texts<const N: usize>(all: [&str; N]) -> Vec<String> {
     all.map(str::to_owned).to_vec()
 }
 
+fn tables(study: &Study<'_>, gait: &Gait) -> Vec<Table> {
+    let multipliers = (!gait.multipliers.is_empty()).then(|| multipliers(gait));
+    std::iter::once(values(study, gait)).chain(multipliers).collect()
+}
+
 fn values(study: &Study<'_>, gait: &Gait) -> Table {
     let spec = &study.loaded.spec;
     let mut rows = Vec::new();
@@ -125,12 +117,22 @@ fn values(study: &Study<'_>, gait: &Gait) -> Table {
     }
     rows.push(vec!["duration".to_owned(), format_quantity(gait.map.duration, "s"), "time of one step".to_owned()]);
     for (measure, &value) in spec.measures.iter().zip(gait.map.measures.iter()) {
-        rows.push(vec![measure.name.clone(), format_quantity(value, &measure.unit), measure.doc.clone()]);
+        let (shown, doc) = if value.is_finite() {
+            (format_quantity(value, &measure.unit), measure.doc.clone())
+        } else {
+            let why = "no number at these parameters: what it divides by is zero, or a function has no value there";
+            (
+                "–".to_owned(),
+                [measure.doc.as_str(), why].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; "),
+            )
+        };
+        rows.push(vec![measure.name.clone(), shown, doc]);
     }
     Table {
         caption: "The gait on its section, and its measures".to_owned(),
         header: texts(["quantity", "value", "what it is"]),
         rows,
+        names: true,
     }
 }
 
@@ -141,6 +143,7 @@ fn multipliers(gait: &Gait) -> Table {
         caption: "Multipliers: eigenvalues of the return map's derivative; the gait is stable where all have a magnitude below 1".to_owned(),
         header: texts(["magnitude", "real part", "imaginary part"]),
         rows: gait.multipliers.iter().map(row).collect(),
+        names: false,
     }
 }
 
@@ -163,6 +166,7 @@ fn parameters(study: &Study<'_>) -> Table {
         caption: "Values of this page".to_owned(),
         header: texts(["parameter", "value", "range", "what it is"]),
         rows,
+        names: true,
     }
 }
 
@@ -177,21 +181,21 @@ fn pictures(study: &Study<'_>, trajectory: Option<&Trajectory>) -> Result<Vec<Fi
         let levels = |observation: &Observation| {
             study.gait().and_then(|gait| figures::mean(study.sheet, gait, observation)).into_iter().collect()
         };
-        let series = run.over_time("Two steps", &levels);
+        let extent = study.extent(&trajectory, 2);
+        let series = run.over_time(&capital(&extent), &levels);
         if !series.panels.is_empty() {
-            add(
-                "What the spec finds worth plotting, over two steps; dashed vertical lines are transitions.",
-                Box::new(series),
-            );
+            let lines = if series.events.is_empty() { "" } else { "; dashed vertical lines are transitions" };
+            add(&format!("What the spec finds worth plotting, over {extent}{lines}."), Box::new(series));
         }
     }
     if let Some(trajectory) = trajectory
         && let Some(body) = body_path(&study.loaded.observations, study.parameters, trajectory)
     {
         let run = Run { loaded: study.loaded, parameters: study.parameters, trajectory };
-        let title = format!("Path of the body over {} steps", study.steps);
+        let title = format!("Path of the body over {}", study.extent(trajectory, study.steps));
+        let links = if body.links.is_empty() { "" } else { "; links as they stand before and after transitions" };
         add(
-            "The body's path, to the same scale in both directions; links as they stand after transitions.",
+            &format!("The body's path, to the same scale in both directions{links}."),
             Box::new(run.path(&title, &body)),
         );
     }
@@ -202,7 +206,10 @@ fn pictures(study: &Study<'_>, trajectory: Option<&Trajectory>) -> Result<Vec<Fi
         let gait = study.gait().map(|gait| gait.coordinates.as_slice());
         let orbit = Orbit { map: figures::map_of(request, study.guess), start: study.guess, gait };
         let map = figures::return_map(study.loaded, &orbit)?;
-        add("Where the first guess leads: each section coordinate against its next value.", Box::new(map));
+        let which = if map.maps.len() == 1 { "the section's coordinate" } else { "each coordinate of the section" };
+        let led = map.maps.first().is_some_and(|map| map.iterates.len() > 1);
+        let where_to = if led { "Where the first guess leads" } else { "The first guess leads to no next step" };
+        add(&format!("{where_to}: {which} against its next value."), Box::new(map));
     }
     Ok(figures)
 }

@@ -48,19 +48,20 @@ fn table(loaded: &Loaded, comparison: &published::Comparison<'_>) -> Table {
             comparison.computed(number).map_or("–".to_owned(), |value| format_quantity(value, &number.unit));
         let deviation = comparison.deviation(number).map_or("–".to_owned(), |by| format!("{:+.2} %", 100.0 * by));
         let name = published::name(loaded, number).to_owned();
-        vec![name, format_quantity(number.value, &number.unit), computed, deviation]
+        vec![name, published::shown(number), computed, deviation]
     };
     Table {
         caption: "Published beside computed".to_owned(),
         header: ["quantity", "published", "computed", "deviation"].map(str::to_owned).to_vec(),
         rows: comparison.published.numbers.iter().map(row).collect(),
+        names: true,
     }
 }
 
-/// The motion over two steps with published means as levels; nothing where no mean of a curve is published.
+/// The motion over two steps with published numbers as levels; nothing where none of them is a value of a curve.
 fn picture(study: &Study<'_>, comparison: &published::Comparison<'_>) -> Result<Option<Figure>, RequestError> {
     let series = figures::published(study.loaded, study.sheet, comparison)?;
-    let caption = "Computed curves over two steps, with their published and computed means as horizontal lines.";
+    let caption = "Computed curves over two steps, with published and computed numbers as horizontal lines.";
     let drawn = !series.panels.is_empty();
     Ok(drawn.then(|| Figure { caption: caption.to_owned(), picture: Box::new(series) }))
 }

@@ -36,8 +36,9 @@ pub(super) fn table(table: &Table) -> String {
     };
     let rows: String = table.rows.iter().map(row).collect();
     let caption = if table.caption.is_empty() { String::new() } else { element("caption", &text(&table.caption)) };
+    let class = if table.names { " class=\"names\"" } else { "" };
     format!(
-        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table{class}>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
         text(&table.caption)
     )
 }

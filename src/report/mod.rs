@@ -9,6 +9,7 @@ mod comparison;
 mod equations;
 mod html;
 mod page;
+mod run;
 
 pub use animation::Animation;
 pub use collect::{Study, contents};
@@ -53,8 +54,10 @@ pub struct Table {
     pub caption: String,
     /// Names of the columns.
     pub header: Vec<String>,
-    /// The first column names the row.
+    /// The first column is the head of its row.
     pub rows: Vec<Vec<String>>,
+    /// Whether these heads are names of the spec.
+    pub names: bool,
 }
 
 /// A picture with what there is to say of it.

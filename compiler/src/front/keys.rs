@@ -57,7 +57,7 @@ pub(crate) const DRAWING: &[&str] = &["velocity", "points", "links", "panels"];
 /// Of a point of `[drawing.points]`.
 pub(crate) const DRAWN_POINT: &[&str] = &["at", "modes", "held", "doc"];
 /// Of `[published.NAME]`.
-pub(crate) const PUBLISHED: &[&str] = &["doc", "source", "set", "start", "measures", "section"];
+pub(crate) const PUBLISHED: &[&str] = &["doc", "source", "set", "start", "measures", "section", "spread"];
 /// The most maps that one gait can be made of: longer periods are not gaits that anybody could tell from chaos.
 pub const LONGEST_PERIOD: usize = 1000;
 /// The most parameters that a problem can be robust over: more have more scenarios than anybody would wait for.

@@ -210,6 +210,7 @@ pub(crate) struct Published {
     pub(crate) start: Vec<Named<Text>>,
     pub(crate) measures: Vec<Named<Text>>,
     pub(crate) section: Vec<Named<Text>>,
+    pub(crate) spread: Vec<Named<Text>>,
 }
 
 impl Drawing {
@@ -229,12 +230,13 @@ impl Drawing {
 impl Published {
     /// Everything in it that has a name elsewhere.
     pub(crate) fn quantities(&self) -> impl Iterator<Item = &Named<Text>> {
-        self.set.iter().chain(&self.start).chain(&self.measures).chain(&self.section)
+        self.set.iter().chain(&self.start).chain(&self.measures).chain(&self.section).chain(&self.spread)
     }
 
     /// The same, to be changed.
     pub(crate) fn quantities_mut(&mut self) -> impl Iterator<Item = &mut Named<Text>> {
-        self.set.iter_mut().chain(&mut self.start).chain(&mut self.measures).chain(&mut self.section)
+        let numbers = self.measures.iter_mut().chain(&mut self.section).chain(&mut self.spread);
+        self.set.iter_mut().chain(&mut self.start).chain(numbers)
     }
 }
 

@@ -24,6 +24,8 @@ pub struct PublishedNumber {
     pub of: PublishedOf,
     /// SI units.
     pub value: f64,
+    /// By how much it scatters, or how exactly it is known; SI units, at least 0.
+    pub spread: Option<f64>,
     /// Unit as it was published, for print (empty: dimensionless).
     pub unit: String,
 }

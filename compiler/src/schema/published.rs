@@ -24,6 +24,10 @@ pub(super) fn published() -> Value {
             "Quantity with its unit, as it was published.",
             "Published values of the gait's coordinates on the section.",
         )),
+        "spread" => Some(expressions(
+            "Quantity with its unit, at least 0.",
+            "By how much a published number scatters, or how exactly it is known: shown behind it, as in 20 cm/s ± 4 cm/s.",
+        )),
         _ => None,
     };
     let mut item = Keys::new(keys::PUBLISHED, key)

@@ -286,7 +286,7 @@ impl Collector<'_> {
     }
 
     fn published(&self, item: &Named<spec::Published>) -> Published {
-        let spec::Published { doc, source, set, start, measures, section } = &item.value;
+        let spec::Published { doc, source, set, start, measures, section, spread } = &item.value;
         Published {
             name: item.name.clone(),
             doc: doc.clone(),
@@ -295,6 +295,7 @@ impl Collector<'_> {
             start: self.quantities(start),
             measures: self.quantities(measures),
             section: self.quantities(section),
+            spread: self.quantities(spread),
         }
     }
 

@@ -38,6 +38,7 @@ pub(super) struct Published {
     pub(super) start: Vec<Start>,
     pub(super) measures: Vec<Start>,
     pub(super) section: Vec<Start>,
+    pub(super) spread: Vec<Start>,
 }
 
 impl DrawnPoint {
@@ -130,6 +131,7 @@ impl Published {
         let at = self.set.iter().map(|item| ("at ", item));
         let from = self.start.iter().map(|item| ("from ", item));
         let numbers = self.measures.iter().chain(&self.section).map(|item| ("", item));
-        at.chain(from).chain(numbers)
+        let spread = self.spread.iter().map(|item| ("spread of ", item));
+        at.chain(from).chain(numbers).chain(spread)
     }
 }

@@ -13,5 +13,5 @@ mod surface;
 mod watch;
 
 pub(crate) use root::root;
-pub(crate) use surface::{NOTHING, Side, Surface, gradient, read, value};
+pub(crate) use surface::{NOTHING, Reading, Side, Surface, gradient, read, value};
 pub(crate) use watch::{Found, Watched, first_events, watch};

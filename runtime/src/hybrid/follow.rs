@@ -7,11 +7,12 @@ use super::functionals::Functionals;
 use super::map::Coordinates;
 use super::request::{accuracy, values};
 use super::run::Run;
+use crate::event::{Reading, Side, Surface, Watched};
 use crate::integrate::{self, Bare, Carried, Explicit, Radau, Whole};
-use crate::model::{Model, ModelInfo};
+use crate::model::{Direction, Model, ModelInfo};
 use crate::return_map::{Method, RequestError, StopReason};
 use crate::trajectory::trace::Trace;
-use crate::trajectory::{FollowRequest, MOST_VALUES, Sampling, Start, Trajectory, Until};
+use crate::trajectory::{Beyond, FollowRequest, MOST_VALUES, Sampling, Start, Trajectory, Until};
 
 /// How a pass ended.
 enum Followed {
@@ -149,6 +150,7 @@ where
         let mut crossings = 0;
         self.check_finite()?;
         self.begin(false)?;
+        self.note_beyond();
         loop {
             if until == Until::Crossings(crossings) {
                 return Ok(());
@@ -170,6 +172,23 @@ where
         }
     }
 
+    /// Notes the guards on whose far side the run starts.
+    fn note_beyond(&mut self) {
+        let far = |w: &Watched| match w.direction {
+            Direction::Falling => w.side == Side::Negative,
+            Direction::Rising => w.side == Side::Positive,
+            Direction::Either => false,
+        };
+        let beyond = self.watched.iter().filter(|w| far(w)).filter_map(|w| {
+            let Surface::Transition(transition) = w.surface else { return None };
+            let Reading { value, rate, rounding, .. } = w.start;
+            Some(Beyond { transition, value, rate, at_zero: value.abs() <= rounding })
+        });
+        if let Some(trace) = &mut self.trace {
+            trace.beyond = beyond.collect();
+        }
+    }
+
     /// What the trace has become.
     fn into_followed(mut self, start: [f64; N], ended: Result<(), StopReason>) -> Followed {
         let (time, stiff) = (self.time(), self.stiff());
@@ -188,6 +207,7 @@ where
             statistics: self.statistics,
             method: X::KIND,
             warnings: self.warnings,
+            beyond: trace.beyond,
         };
         Followed::Run(Box::new(trajectory), stiff)
     }

@@ -14,4 +14,4 @@ mod result;
 pub(crate) mod trace;
 
 pub use request::{FollowRequest, MOST_VALUES, Sampling, Start, Until};
-pub use result::{Event, Sample, Samples, Segment, Trajectory};
+pub use result::{Beyond, Event, Sample, Samples, Segment, Trajectory};

@@ -26,6 +26,22 @@ pub struct Trajectory {
     pub method: Method,
     /// Grazing and ties on the way.
     pub warnings: Vec<Warning>,
+    /// The guards of the first mode that the start is beyond.
+    pub beyond: Vec<Beyond>,
+}
+
+/// A guard that has a direction, where a run starts on the far side of it: where its transition would be over. It cannot fire
+/// before the run has come back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beyond {
+    /// Index into `info().transitions`.
+    pub transition: usize,
+    /// The guard at the start, in its SI unit.
+    pub value: f64,
+    /// Its time derivative there, in its SI unit per second.
+    pub rate: f64,
+    /// Whether it is zero to rounding, so that only the rate leads beyond: so do runs start that have just fired it.
+    pub at_zero: bool,
 }
 
 /// A stretch between two transitions. What is constant on it.

@@ -1,7 +1,7 @@
 //! Notes a run as a trajectory, while it goes on.
 
 use super::request::MOST_VALUES;
-use super::result::{Event, Samples, Segment};
+use super::result::{Beyond, Event, Samples, Segment};
 use crate::return_map;
 
 /// A time of the grid this near to another sample, as a fraction of the interval, is left out.
@@ -23,6 +23,8 @@ pub(crate) struct Trace {
     pub(crate) segments: Vec<Segment>,
     pub(crate) samples: Samples,
     pub(crate) events: Vec<Event>,
+    /// Guards that the start is beyond.
+    pub(crate) beyond: Vec<Beyond>,
 }
 
 impl Trace {
@@ -37,6 +39,7 @@ impl Trace {
             segments: Vec::new(),
             samples: Samples { width, ..Samples::default() },
             events: Vec::new(),
+            beyond: Vec::new(),
         }
     }
 

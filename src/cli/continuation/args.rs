@@ -43,4 +43,7 @@ pub(crate) struct ContinueArgs {
     /// Draw the branches: .svg or .png
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
+    /// Draw the magnitudes of all multipliers over the parameter: .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot_multipliers: Option<PathBuf>,
 }

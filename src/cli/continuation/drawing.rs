@@ -1,9 +1,12 @@
 //! A diagram as a picture: branches over the parameter, bifurcations marked.
 
 use super::{Report, words};
-use crate::picture::{self, Branches, Mark, label};
+use crate::picture::{self, Branches, Curve, Event, Level, Mark, Panel, Series, label};
 use gaitc_compiler::front::in_unit;
-use gaitc_runtime::study::continuation::{Branch, Diagram, Point};
+use gaitc_runtime::study::continuation::{Bifurcation, Branch, Diagram, Point};
+
+/// More branches than this find no room above each other.
+const MOST_PANELS: usize = 4;
 
 impl Report<'_> {
     pub(super) fn picture(&self, diagram: &Diagram) -> Branches {
@@ -18,6 +21,52 @@ impl Report<'_> {
             branches: all.map(|(number, branch)| self.curve(several.then_some(number + 1), branch)).collect(),
             marks: marks.map(|b| Mark { at: self.at(&b.point), label: words::kind(b.kind).to_owned() }).collect(),
         }
+    }
+
+    /// The magnitudes of all multipliers over the parameter, one panel a branch: stable where all are below 1.
+    pub(super) fn multipliers(&self, diagram: &Diagram) -> Series {
+        let parameter = self.parameter();
+        let several = diagram.branches.len() > 1;
+        let panels = diagram.branches.iter().take(MOST_PANELS).enumerate().map(|(number, branch)| {
+            let name = if several { format!("branch {}", number + 1) } else { "magnitude of multipliers".to_owned() };
+            let level = Level { name: "1: stable below".to_owned(), value: 1.0, curve: None };
+            Panel { y: name, curves: self.magnitudes(branch), levels: vec![level] }
+        });
+        let bifurcations = diagram.branches.iter().take(MOST_PANELS).flat_map(|branch| &branch.bifurcations);
+        let event = |b: &Bifurcation| Event {
+            at: in_unit(b.point.value, &parameter.unit),
+            label: words::kind(b.kind).to_owned(),
+        };
+        let mut events: Vec<Event> = bifurcations.map(event).collect();
+        events.sort_by(|a, b| a.at.total_cmp(&b.at));
+        Series {
+            title: format!("{}: magnitude of multipliers over {}", self.loaded.spec.name, parameter.name),
+            x: label(&parameter.name, &parameter.unit),
+            panels: panels.collect(),
+            events,
+        }
+    }
+
+    /// One curve a multiplier, the largest first, through gaits and bifurcations in order along the branch.
+    fn magnitudes(&self, branch: &Branch) -> Vec<Curve> {
+        let count = branch.points.iter().map(|point| point.multipliers.len()).max().unwrap_or(0);
+        let name = |i: usize| match i {
+            0 => "largest".to_owned(),
+            i => format!("number {}", i + 1),
+        };
+        let curve = |i: usize| {
+            let at = |point: &Point| {
+                let magnitude = point.multipliers.get(i).map_or(f64::NAN, |m| m.norm());
+                (in_unit(point.value, &self.parameter().unit), magnitude)
+            };
+            let mut points = Vec::new();
+            for (index, point) in branch.points.iter().enumerate() {
+                points.push(at(point));
+                points.extend(branch.bifurcations.iter().filter(|b| b.after == index).map(|b| at(&b.point)));
+            }
+            Curve { name: name(i), points }
+        };
+        (0..count).map(curve).collect()
     }
 
     /// Parameter and shown quantity in the units of their labels.

@@ -82,6 +82,7 @@ impl Report<'_> {
         let criticality = bifurcation.criticality.map(|criticality| match criticality {
             Criticality::Supercritical => "supercritical",
             Criticality::Subcritical => "subcritical",
+            Criticality::Transcritical => "transcritical",
         });
         all.insert("criticality".to_owned(), json!(criticality));
         Value::Object(all)

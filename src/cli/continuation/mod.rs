@@ -25,6 +25,7 @@ use gaitc_runtime::study::continuation::{
     ContinuationOutcome, ContinuationRequest, Diagram, EndReason, Settings, follow,
 };
 use shown::Shown;
+use std::path::PathBuf;
 
 /// Status of a diagram that Ctrl-C ended.
 const INTERRUPTED: &str = "interrupted";
@@ -87,7 +88,18 @@ fn places(args: &ContinueArgs) -> Result<(), InputError> {
     if let Some(path) = &args.out {
         table_file::check("--out", path)?;
     }
-    args.plot.as_deref().map_or(Ok(()), |path| plots::check("--plot", path))
+    let all = [("--out", &args.out), ("--plot", &args.plot), ("--plot-multipliers", &args.plot_multipliers)];
+    for (i, (flag, path)) in all.iter().enumerate() {
+        let Some(path) = path else { continue };
+        if *flag != "--out" {
+            plots::check(flag, path)?;
+        }
+        let same = |other: &Option<PathBuf>| other.as_ref().is_some_and(|other| crate::files::is_same(other, path));
+        if let Some((other, _)) = all.iter().take(i).find(|(_, earlier)| same(earlier)) {
+            return Err(InputError(format!("{other} and {flag} name the same file\n  help: name two")));
+        }
+    }
+    Ok(())
 }
 
 /// What every way of showing a diagram needs.
@@ -123,6 +135,9 @@ impl Report<'_> {
         }
         if let Some(path) = &self.args.plot {
             plots::save("--plot", path, &self.picture(diagram), provenance);
+        }
+        if let Some(path) = &self.args.plot_multipliers {
+            plots::save("--plot-multipliers", path, &self.multipliers(diagram), provenance);
         }
     }
 

@@ -46,7 +46,20 @@ pub(super) fn meaning(report: &Report<'_>, branch: &Branch, bifurcation: &Bifurc
             let side = if before < at { "larger" } else { "smaller" };
             format!("the branch turns round: it has no gait at {side} {}", report.parameter().name)
         }
-        Kind::Branch => "another branch of gaits crosses".to_owned(),
+        Kind::Branch => match bifurcation.criticality {
+            Some(Criticality::Supercritical) => {
+                "a pair of gaits branches off to where the multiplier is beyond 1 (supercritical pitchfork)".to_owned()
+            }
+            Some(Criticality::Subcritical) => {
+                "a pair of gaits, not stable, branches off to where the multiplier is not yet 1 (subcritical pitchfork)"
+                    .to_owned()
+            }
+            Some(Criticality::Transcritical) => {
+                "another branch of gaits crosses, whose multiplier goes through 1 the other way (transcritical)"
+                    .to_owned()
+            }
+            None => "another branch of gaits crosses".to_owned(),
+        },
         Kind::Flip => {
             let twice = 2 * branch.period;
             match bifurcation.criticality {
@@ -58,15 +71,20 @@ pub(super) fn meaning(report: &Report<'_>, branch: &Branch, bifurcation: &Bifurc
                         "gaits of {twice} maps, not stable, branch off to where the multiplier is not yet -1 (subcritical)"
                     )
                 }
-                None => format!("gaits of {twice} maps branch off"),
+                Some(Criticality::Transcritical) | None => format!("gaits of {twice} maps branch off"),
             }
         }
         Kind::NeimarkSacker => {
             let pair = bifurcation.point.multipliers.iter().filter(|m| m.im > 0.0);
             let pair = pair.min_by(|a, b| (a.norm() - 1.0).abs().total_cmp(&(b.norm() - 1.0).abs()));
             let maps = pair.map_or(0.0, |m| std::f64::consts::TAU / m.arg());
+            let beyond = match bifurcation.criticality {
+                Some(Criticality::Supercritical) => "; where they grow they settle on a lasting swing (supercritical)",
+                Some(Criticality::Subcritical) => "; where they die out those beyond some size grow (subcritical)",
+                Some(Criticality::Transcritical) | None => "",
+            };
             format!(
-                "a complex pair crosses the unit circle: disturbances swing with a period of {} maps",
+                "a complex pair crosses the unit circle: disturbances swing with a period of {} maps{beyond}",
                 format_number(maps)
             )
         }

@@ -30,7 +30,13 @@ pub(super) fn draw(
     (args, request, guess): (&GaitArgs, &GaitRequest<'_>, &[f64]),
     provenance: &Provenance,
 ) -> Result<(), InputError> {
+    let none = |flag: &str, path: &std::path::Path| {
+        let why = "since the section has no coordinates: every step is the same";
+        output::warning(&format!("{flag} {}: not drawn, {why}", path.display()));
+    };
+    let nothing = report.loaded.coordinates().is_empty();
     match (&args.plot_multipliers, report.gait()) {
+        (Some(path), _) if nothing => none("--plot-multipliers", path),
         (Some(path), Some(gait)) => {
             plots::save("--plot-multipliers", path, &figures::multipliers(report.loaded, gait), provenance);
         }
@@ -39,7 +45,9 @@ pub(super) fn draw(
         }
         (None, _) => {}
     }
-    if let Some(path) = &args.plot_map {
+    if let Some(path) = args.plot_map.as_ref().filter(|_| nothing) {
+        none("--plot-map", path);
+    } else if let Some(path) = &args.plot_map {
         let gait = report.gait().map(|gait| gait.coordinates.as_slice());
         let orbit = Orbit { map: figures::map_of(request, guess), start: guess, gait };
         plots::save("--plot-map", path, &figures::return_map(report.loaded, &orbit)?, provenance);

@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use crate::motion::BodyPath;
 use gaitc_compiler::front::format_quantity;
 use gaitc_compiler::ir::{Observation, State};
-use gaitc_runtime::return_map::{StopReason, Warning};
+use gaitc_runtime::return_map::StopReason;
 use gaitc_runtime::trajectory::{Event, Trajectory, Until};
 use serde_json::{Map, Value, json};
 
@@ -19,6 +19,8 @@ pub(super) struct Report<'a> {
     pub(super) parameters: &'a [f64],
     pub(super) memory: &'a [f64],
     pub(super) start: &'a Start,
+    /// Whether it starts on a gait.
+    pub(super) on_gait: bool,
     pub(super) until: Until,
     pub(super) trajectory: &'a Trajectory,
     pub(super) observed: &'a [Observation],
@@ -89,18 +91,13 @@ impl Report<'_> {
 
     fn warnings(&self) -> Vec<String> {
         let mut all = inputs::outside_range(self.loaded, self.parameters);
-        all.extend(self.trajectory.warnings.iter().map(|warning| match *warning {
-            Warning::Grazing { transition, time, transversality } => format!(
-                "the guard of `{}` is only grazed at {time:.6} s (its rate there is {}): a slightly other start may pass it by",
-                self.transition(transition),
-                guards::rate(transversality, guards::dimension(&self.loaded.spec, transition))
-            ),
-            Warning::Tie { taken, other, time } => format!(
-                "`{}` and `{}` fire together at {time:.6} s; the first in the spec's order was taken",
-                self.transition(taken),
-                self.transition(other)
-            ),
-        }));
+        // A gait may begin beyond a guard, and comes back to it by itself; so does a run that has just fired it.
+        let beyond = self.trajectory.beyond.iter().filter(|_| !self.on_gait);
+        let lost = beyond.filter(|beyond| !beyond.at_zero || self.trajectory.events.is_empty());
+        all.extend(lost.filter_map(|beyond| guards::beyond(&self.loaded.spec, beyond)));
+        let consequence = "a slightly other start may pass it by";
+        let warnings = self.trajectory.warnings.iter();
+        all.extend(warnings.map(|warning| guards::warning(&self.loaded.spec, warning, consequence)));
         all
     }
 
@@ -121,6 +118,7 @@ impl Report<'_> {
                 "transition": self.transition(event.transition),
                 "time": event.time,
                 "transversality": event.transversality,
+                "transversality_unit": guards::rate_unit(spec, event.transition),
                 "state_before": state(&event.before),
                 "state_after": state(&event.after),
                 "memory": named(self.memory_names(), &event.memory),

@@ -1,6 +1,7 @@
 //! A run as tables: samples and transitions.
 
 use super::report::Report;
+use crate::cli::guards;
 use crate::table::{Column, Table, Values};
 use gaitc_compiler::dimension::Dimension;
 use gaitc_compiler::front::si_unit_like;
@@ -62,13 +63,8 @@ impl Report<'_> {
                 "transition",
                 Values::Text(events.iter().map(|e| self.transition(e.transition).to_owned()).collect()),
             ),
-            number(
-                "transversality",
-                "",
-                "time derivative of the guard just before it fired, in the guard's SI unit per second",
-                events.iter().map(|e| e.transversality).collect(),
-            ),
         ];
+        columns.extend(self.transversality());
         for (m, memory) in self.loaded.spec.memory.iter().enumerate() {
             let counts = events.iter().map(|e| e.memory.get(m).map_or(0, whole)).collect();
             columns.push(column(&memory.name, "", &memory.doc, Values::Integer(counts)));
@@ -85,6 +81,27 @@ impl Report<'_> {
             }
         }
         Table { columns: first_of_each_name(columns) }
+    }
+}
+
+impl Report<'_> {
+    /// The rates of guards; their unit in the header where all transitions of the model share one, else beside each.
+    fn transversality(&self) -> Vec<Column> {
+        let (spec, events) = (&self.loaded.spec, &self.trajectory.events);
+        let mut units: Vec<String> = (0..spec.transitions.len()).map(|i| guards::rate_unit(spec, i)).collect();
+        units.sort();
+        units.dedup();
+        let (name, doc) = ("transversality", "time derivative of the guard just before it fired");
+        let values = events.iter().map(|e| e.transversality).collect();
+        match &units[..] {
+            [unit] => vec![number(name, unit, doc, values)],
+            _ => {
+                let units = events.iter().map(|e| guards::rate_unit(spec, e.transition)).collect();
+                let doc = format!("{doc}, in the unit of the next column");
+                let beside = "unit of the guard's time derivative";
+                vec![number(name, "", &doc, values), column("transversality_unit", "", beside, Values::Text(units))]
+            }
+        }
     }
 }
 

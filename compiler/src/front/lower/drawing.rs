@@ -9,7 +9,7 @@ use crate::front::names::is_identifier;
 use crate::front::parser::shortened;
 use crate::front::spec::{self, Equation, Named, Spec};
 use crate::front::text::Text;
-use crate::front::{si_unit, units::parse_unit};
+use crate::front::{si_unit, si_unit_like, units::parse_unit};
 use crate::ir::{Drawing, DrawnPoint, Joint, Observation, Plane};
 
 /// What links call the body.
@@ -127,7 +127,14 @@ impl Lowering<'_> {
                 .push(error.help("give each dimension a panel: `panels = [[\"v_x\", \"v_y\"], [\"force\"]]`"));
             return None;
         }
-        let lowered = curves.iter().zip(lowered).map(|(curve, value)| Some(observation(curve, value?, common)));
+        let lowered = curves.iter().zip(lowered).map(|(curve, value)| {
+            let mut curve = observation(curve, value?, common);
+            // A state says whether it is an angle, which its dimension does not.
+            if let Some(state) = self.model.states.iter().find(|state| state.name == curve.name) {
+                curve.unit = si_unit_like(common, &state.unit);
+            }
+            Some(curve)
+        });
         lowered.collect()
     }
 }

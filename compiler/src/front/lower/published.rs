@@ -2,6 +2,7 @@
 
 use super::lowering::Lowering;
 use super::scope::Entity;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::front::quantity::Quantities;
 use crate::front::spec::{self, Named, Spec};
@@ -21,30 +22,50 @@ impl Lowering<'_> {
     }
 
     fn publication(&mut self, item: &Named<spec::Published>) -> Option<Published> {
-        let spec::Published { doc, source, set, start, measures, section } = &item.value;
+        let spec::Published { doc, source, set, start, measures, section, spread } = &item.value;
         let names: Vec<String> = self.model.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let set: Vec<_> = set.iter().map(|item| self.given("parameter", item, &names)).collect();
         let names = self.coordinate_names();
         let start: Vec<_> = start.iter().map(|item| self.given("section coordinate", item, &names)).collect();
         let of_section: Vec<_> = section.iter().map(|item| self.given("section coordinate", item, &names)).collect();
+        let known: Vec<String> = measures.iter().chain(section).map(|item| item.name.clone()).collect();
+        let spread: Vec<_> = spread.iter().map(|item| self.spread(item, &known)).collect();
         let mut names: Vec<String> = self.model.measures.iter().map(|measure| measure.name.clone()).collect();
         let radius = names.len();
         names.push(RADIUS.to_owned());
         let measures: Vec<_> = measures.iter().map(|item| self.given("measure", item, &names)).collect();
         let measure = |i| if i == radius { PublishedOf::SpectralRadius } else { PublishedOf::Measure(i) };
-        let number = |of: PublishedOf, (_, value, unit): Given| PublishedNumber { of, value, unit };
+        let number = |of: PublishedOf, (_, value, unit): Given| PublishedNumber { of, value, spread: None, unit };
         let measures = measures.into_iter().map(|given| given.map(|given| number(measure(given.0), given)));
         let coordinate = |given: Given| number(PublishedOf::Coordinate(given.0), given);
         let numbers = measures.chain(of_section.into_iter().map(|given| given.map(coordinate)));
+        let mut numbers = numbers.collect::<Option<Vec<_>>>()?;
+        for (i, value) in spread.into_iter().collect::<Option<Vec<_>>>()? {
+            if let Some(number) = numbers.get_mut(i) {
+                number.spread = Some(value);
+            }
+        }
         let value = |given: Option<Given>| given.map(|(i, value, _)| (i, value));
         Some(Published {
             name: item.name.clone(),
             doc: doc.clone(),
             source: source.as_ref()?.value.clone(),
-            numbers: numbers.collect::<Option<_>>()?,
+            numbers,
             set: set.into_iter().map(value).collect::<Option<_>>()?,
             start: start.into_iter().map(value).collect::<Option<_>>()?,
         })
+    }
+
+    /// How much a number that is published scatters: its index among `known` and the spread in SI units.
+    fn spread(&mut self, item: &Named<Text>, known: &[String]) -> Option<(usize, f64)> {
+        let (index, value, _) = self.given("published number", item, known)?;
+        if value < 0.0 {
+            let message = format!("the spread of `{}` is negative", item.name);
+            let error = Diagnostic::error(Code::BadValue, message).at(item.value.span, "");
+            self.diagnostics.push(error.help("give by how much the number scatters on either side, as in \"4 cm/s\""));
+            return None;
+        }
+        Some((index, value))
     }
 
     fn coordinate_names(&self) -> Vec<String> {

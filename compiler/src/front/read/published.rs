@@ -21,6 +21,7 @@ pub(super) fn published(entries: &[Entry], sink: &mut Sink<'_>) -> Vec<Named<Pub
             start: quantities(&fields, "start", "q_theta = \"-20 deg\"", sink),
             measures: quantities(&fields, "measures", "climb_speed = \"72 cm/s\"", sink),
             section: quantities(&fields, "section", "q_theta = \"-20 deg\"", sink),
+            spread: quantities(&fields, "spread", "climb_speed = \"4 cm/s\"", sink),
         };
         let empty = |key| match fields.get(key).map(|entry| &entry.value.kind) {
             None => true,

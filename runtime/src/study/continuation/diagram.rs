@@ -266,10 +266,12 @@ impl System<'_> {
     }
 
     fn bifurcation(&self, found: &Found, settings: &Settings) -> Result<Bifurcation, RequestError> {
-        let criticality = if found.kind == Kind::Flip && !settings.interrupt.requested() {
-            self.with_period(2 * self.period, &found.sample).criticality(found, self)?
-        } else {
-            None
+        let criticality = match found.kind {
+            _ if settings.interrupt.requested() => None,
+            Kind::Flip => self.with_period(2 * self.period, &found.sample).doubling(found, self)?,
+            Kind::Branch => self.crossing(&found.sample)?,
+            Kind::NeimarkSacker => self.swing(&found.sample)?,
+            Kind::Fold => None,
         };
         Ok(Bifurcation { kind: found.kind, after: found.after, point: self.point(&found.sample)?, criticality })
     }

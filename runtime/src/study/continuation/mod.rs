@@ -8,9 +8,11 @@
 //! 10; H. B. Keller, *Numerical solution of bifurcation and nonlinear eigenvalue problems*, 1977.
 
 mod corrector;
+mod criticality;
 mod diagram;
 mod indicators;
 mod locate;
+mod normal_form;
 mod observer;
 mod path;
 mod switching;
@@ -180,7 +182,7 @@ pub struct Bifurcation {
     pub after: usize,
     /// The gait there.
     pub point: Point,
-    /// For flips, when it could be told: from which side the gaits of twice the period come.
+    /// From which side other motions come, where it could be told; never of folds.
     pub criticality: Option<Criticality>,
 }
 
@@ -197,13 +199,16 @@ pub enum Kind {
     NeimarkSacker,
 }
 
-/// From which side gaits of twice the period come.
+/// From which side other motions come: gaits of twice the period at a flip, a pair of gaits at a branch point, lasting swings at a
+/// Neimark-Sacker bifurcation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criticality {
     /// They exist where the multiplier is outside the circle: the change is gradual, and reversible.
     Supercritical,
     /// They exist where the multiplier is still inside, and limit what disturbances the gait survives: the change is a jump.
     Subcritical,
+    /// Of a branch point alone: the other branch goes on through it, and both change sides.
+    Transcritical,
 }
 
 /// An end of the parameter's range.

@@ -12,9 +12,7 @@
 //! differences of A. A point at a small distance along the direction is then found by Newton's method, and is taken only if it is elsewhere than
 //! on the branch that it should leave.
 
-use super::Criticality;
 use super::corrector::{null_space, tangent};
-use super::locate::Found;
 use super::system::{Sample, System};
 use crate::return_map::RequestError;
 use nalgebra::{DMatrix, DVector};
@@ -24,22 +22,18 @@ const AMPLITUDES: [f64; 6] = [0.01, 0.02, 0.005, 0.002, 0.05, 0.001];
 /// Part of the amplitude that a point has to be away from the old branch.
 const ELSEWHERE: f64 = 0.2;
 /// How far from the predicted point, relative to the amplitude, the other branch may be.
-const RADIUS: f64 = 1.0;
+pub(super) const RADIUS: f64 = 1.0;
 /// Steps of the differences.
 const DIFFERENCE: f64 = 1e-3;
-/// A parameter shift that does not grow with the square of the amplitude, to this relative accuracy, says nothing of the side.
-const QUADRATIC: f64 = 0.3;
-/// Shifts of the scaled parameter below this are rounding.
-const SHIFT: f64 = 1e-9;
 /// A gait is the same after fewer maps when it returns to within this distance, in scaled coordinates.
 const REPEATS: f64 = 1e-4;
 
 /// Unit vectors at a branch point.
-struct Directions {
+pub(super) struct Directions {
     /// Along the other branch.
-    other: DVector<f64>,
+    pub(super) other: DVector<f64>,
     /// In the null space, across the known branch.
-    across: DVector<f64>,
+    pub(super) across: DVector<f64>,
 }
 
 impl System<'_> {
@@ -67,7 +61,7 @@ impl System<'_> {
     }
 
     /// The eigenvector of -1, in scaled unknowns.
-    fn flip_direction(&self, flip: &Sample) -> Option<DVector<f64>> {
+    pub(super) fn flip_direction(&self, flip: &Sample) -> Option<DVector<f64>> {
         let d = flip.coordinates();
         let matrix = DMatrix::from_fn(d, d, |i, j| {
             flip.jacobian[(i, j)] * self.scale[j] / self.scale[i] + if i == j { 1.0 } else { 0.0 }
@@ -79,7 +73,7 @@ impl System<'_> {
     }
 
     /// A point of the doubled branch at an amplitude, if it is one.
-    fn doubled(
+    pub(super) fn doubled(
         &self,
         start: &DVector<f64>,
         direction: &DVector<f64>,
@@ -96,44 +90,16 @@ impl System<'_> {
         Ok(sample.away_from(start).filter(|_| apart))
     }
 
-    /// From which side the gaits of twice the period come; `None` where two small amplitudes do not agree on it.
-    pub(super) fn criticality(&self, flip: &Found, single: &System<'_>) -> Result<Option<Criticality>, RequestError> {
-        let Some(direction) = self.flip_direction(&flip.sample) else {
-            return Ok(None);
-        };
-        let start = self.rescaled(single, &flip.sample.y);
-        for amplitude in [0.02, 0.01, 0.005] {
-            let shift = |amplitude| -> Result<Option<f64>, RequestError> {
-                Ok(self.doubled(&start, &direction, amplitude, single)?.map(|s| s.s() - flip.sample.s()))
-            };
-            if let (Some(large), Some(small)) = (shift(amplitude)?, shift(0.5 * amplitude)?)
-                && small.abs() > SHIFT
-                && (large / small / 4.0 - 1.0).abs() < QUADRATIC
-            {
-                // The parameter's direction in which the multiplier leaves the circle.
-                let leaving = flip.sample.along_parameter() * if flip.loses { 1.0 } else { -1.0 };
-                let same = (small > 0.0) == (leaving > 0.0);
-                return Ok(Some(if same { Criticality::Supercritical } else { Criticality::Subcritical }));
-            }
-        }
-        Ok(None)
-    }
-
     /// Points on both sides of a branch point on the branch that crosses there, with tangents away from it.
     pub(super) fn beside_branch_point(&self, at: &Sample) -> Result<[Option<Sample>; 2], RequestError> {
-        let Some(Directions { other: direction, across }) = self.other_direction(at)? else {
+        let Some(directions) = self.other_direction(at)? else {
             return Ok([None, None]);
         };
         let mut both = [None, None];
-        for (slot, direction) in both.iter_mut().zip([direction.clone(), -direction]) {
+        for (slot, side) in both.iter_mut().zip([1.0, -1.0]) {
             for amplitude in AMPLITUDES {
-                let guess = &at.y + &direction * amplitude;
-                let Ok(corrected) = self.correct(guess, &direction, RADIUS * amplitude)? else {
-                    continue;
-                };
-                let apart = across.dot(&(&corrected.sample.y - &at.y)).abs();
-                if apart >= ELSEWHERE * amplitude * across.dot(&direction).abs() {
-                    *slot = corrected.sample.away_from(&at.y);
+                if let Some(sample) = self.on_other(at, &directions, side * amplitude)? {
+                    *slot = sample.away_from(&at.y);
                     break;
                 }
             }
@@ -141,8 +107,23 @@ impl System<'_> {
         Ok(both)
     }
 
+    /// The point of the branch that crosses at a branch point at a signed distance, if it is one.
+    pub(super) fn on_other(
+        &self,
+        at: &Sample,
+        Directions { other, across }: &Directions,
+        signed: f64,
+    ) -> Result<Option<Sample>, RequestError> {
+        let Ok(corrected) = self.correct(&at.y + other * signed, other, RADIUS * signed.abs())? else {
+            return Ok(None);
+        };
+        let apart = across.dot(&(&corrected.sample.y - &at.y)).abs();
+        let elsewhere = apart >= ELSEWHERE * signed.abs() * across.dot(other).abs();
+        Ok(Some(corrected.sample).filter(|_| elsewhere))
+    }
+
     /// The direction of the other branch, and the null vector across the known one.
-    fn other_direction(&self, at: &Sample) -> Result<Option<Directions>, RequestError> {
+    pub(super) fn other_direction(&self, at: &Sample) -> Result<Option<Directions>, RequestError> {
         let null = null_space(&at.matrix, 2);
         let svd = at.matrix.clone().svd(true, false);
         let smallest = svd.singular_values.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, _)| i);
