@@ -219,7 +219,7 @@ pub(super) fn violations(program: &Program<'_>, point: &Point) -> String {
     };
     for (row, c) in program.rows.iter().zip(point.c.iter()) {
         if -c > tolerance
-            && let Row::Margin(i) | Row::Jury(Some(i), _) = *row
+            && let Row::Margin(i, _) | Row::Jury(Some(i), _) = *row
             && let Some(constraint) = program.problem.constraints.get(i)
         {
             add(format!("`{}` is violated", constraint.name), -c);
@@ -245,6 +245,18 @@ pub(super) fn kink(kink: &Kink) -> String {
         "multipliers meet near {:.6}{:+.6}i (relative gap {:.1e}): the spectral radius has a kink here, and to one side it \
          rises steeply",
         m.re, m.im, kink.gap
+    )
+}
+
+/// The note where extrema are taken at several places of the map at once, given as fractions of its duration.
+pub(super) fn places(name: &str, phases: &[f64]) -> String {
+    let name = if name == "the objective" { name.to_owned() } else { format!("`{name}`") };
+    let all: Vec<String> = phases.iter().map(|phase| format!("{:.1} %", 100.0 * phase)).collect();
+    let (last, others) = all.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
+    format!(
+        "an extremum in {name} is taken at several places at once here, after {} and {last} of the duration: it has a kink, and \
+         each of these places limits the optimum",
+        others.join(", ")
     )
 }
 

@@ -16,13 +16,13 @@ mod restore;
 mod scenarios;
 
 use super::gait::{self, NoGait, Start};
+use super::pieces;
 use super::problem::{Problem, ProblemError};
 use super::program::{Failure, Program};
 use super::scene::Scene;
-use super::search::{End, Ended, search};
+use super::search::{End, Ended};
 use super::solution::{Solution, Status};
 use super::task::Task;
-use super::verdict;
 use check::{Checked, check};
 pub use restore::InTheWay;
 use restore::{Design, Restored};
@@ -214,9 +214,7 @@ impl<'p> Robust<'p> {
     ) -> Result<Result<Found<'p>, String>, ProblemError> {
         let run = || {
             let task = Task::asked(self.problem);
-            let program = Program::with_scenes(self.problem, task, scenes.to_vec(), parameters, section)?;
-            let point = verdict::starting_point(&program, parameters, section)?;
-            let ended = search(&program, point)?;
+            let (program, ended) = pieces::searched(self.problem, &task, scenes, (parameters, section))?;
             Ok(Found { program, ended, in_the_way: None })
         };
         match run() {

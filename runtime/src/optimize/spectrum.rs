@@ -42,7 +42,7 @@ impl Program<'_> {
         let groups: Vec<Groups> = point.groups.iter().map(Groups::settled).collect();
         let others = groups != point.groups;
         let point = match others {
-            true => self.at(&point.u, (point.parameters, point.section), point.map, &groups)?,
+            true => self.at(&point.u, (point.parameters, point.section), (point.map, point.candidates), &groups)?,
             false => point,
         };
         self.adopt(Some(&point));
