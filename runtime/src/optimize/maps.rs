@@ -1,8 +1,9 @@
 //! The maps that the nonlinear program is made of: one in every scene, stacked, counted as work.
 
+use super::gait::patient;
 use super::program::{Failure, Program};
 use super::scene::{Scene, stacked};
-use crate::return_map::{Candidate, MapOutcome, MapRequest, MapResult, Plan, Sensitivity};
+use crate::return_map::{Accuracy, Candidate, MapOutcome, MapRequest, MapResult, Plan, Sensitivity};
 use std::sync::atomic::Ordering;
 
 impl Program<'_> {
@@ -26,7 +27,7 @@ impl Program<'_> {
                 period: self.problem.period,
                 sensitivity,
                 measures: true,
-                accuracy: self.problem.settings.accuracy,
+                accuracy: self.patient(),
             })?;
             places.push(candidates);
             self.completed(outcome)
@@ -74,9 +75,14 @@ impl Program<'_> {
             period: self.problem.period,
             sensitivity,
             measures,
-            accuracy: self.problem.settings.accuracy,
+            accuracy: self.patient(),
         })?;
         self.completed(outcome)
+    }
+
+    /// The accuracy of maps near the gait that the search follows.
+    fn patient(&self) -> Accuracy {
+        patient(self.problem.settings.accuracy, f64::from_bits(self.followed.load(Ordering::Relaxed)))
     }
 
     /// What a map that was run has led to, counted as work.

@@ -20,7 +20,7 @@ use crate::orbit::{multipliers, spectral_radius};
 use crate::return_map::{Candidate, MapResult, RequestError, Stop};
 use nalgebra::DVector;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// The value of a row that there is room for, and no factor.
 const NO_ROW: f64 = 1.0;
@@ -95,6 +95,8 @@ pub(super) struct Program<'a> {
     pub(super) groups: Mutex<Vec<Groups>>,
     /// Single maps so far, each with its sensitivities.
     pub(super) worked: AtomicUsize,
+    /// Duration of the gait that the search follows (s), as bits; infinite before there is one.
+    pub(super) followed: AtomicU64,
 }
 
 impl<'a> Program<'a> {
@@ -123,6 +125,7 @@ impl<'a> Program<'a> {
             objective_scale: 1.0,
             groups: Mutex::default(),
             worked: AtomicUsize::new(0),
+            followed: AtomicU64::new(f64::INFINITY.to_bits()),
         };
         let (map, _) = program.image(parameters, section)?;
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
@@ -154,6 +157,7 @@ impl<'a> Program<'a> {
             objective_scale: self.objective_scale,
             groups: Mutex::new(self.groups()),
             worked: AtomicUsize::new(0),
+            followed: AtomicU64::new(f64::INFINITY.to_bits()),
         }
     }
 

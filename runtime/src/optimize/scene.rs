@@ -34,7 +34,7 @@ impl Scene {
 
 /// The maps of all scenes (at least one) as one: coordinates and measures one after the other, the Jacobian with a block for each
 /// scene and common columns for the parameters. `d` is the number of coordinates of a scene. What belongs to a single run,
-/// as duration and events, is that of the first scene.
+/// as events, is that of the first scene; the duration is the longest.
 pub(super) fn stacked(maps: &[MapResult], d: usize) -> MapResult {
     let parameters = maps.iter().map(|map| map.jacobian.ncols().saturating_sub(d)).min().unwrap_or(0);
     let own = maps.iter().map(|map| map.jacobian.ncols().min(d)).min().unwrap_or(0);
@@ -69,6 +69,7 @@ pub(super) fn stacked(maps: &[MapResult], d: usize) -> MapResult {
         measures: joined(|map| &map.measures),
         measures_jacobian: jacobian(|map| &map.measures_jacobian),
         statistics: work,
+        duration: maps.iter().map(|map| map.duration).fold(0.0, f64::max),
         warnings: maps.iter().flat_map(|map| map.warnings.iter().copied()).collect(),
         ..maps[0].clone()
     }

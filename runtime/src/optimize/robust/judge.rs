@@ -117,6 +117,7 @@ pub(super) fn judged(robust: &Robust<'_>, found: &mut Found<'_>) -> Result<Solut
             return Ok(solution);
         }
     }
+    solution.notes.extend(program.kinks(ended));
     solution.notes.extend(verdict::deadbeat(program, &ended.point, &solution));
     solution.message = match &ended.refused {
         Some(stop) if solution.status == Status::Stalled => message::refused(&solution, stop, &detail),
