@@ -157,6 +157,23 @@ fn what_is_wrong_is_said() {
     assert!(code != 0 && errors.contains("not the same for all machines"), "{errors}");
 }
 
+/// Where the gait cannot be followed to a machine, that machine is named, and no table is shown that could be taken for the answer.
+#[test]
+fn a_machine_without_a_gait_is_named() {
+    let asked = ["optimize", "power_stroke", "--robust", "m=2..60 kg"];
+    let (code, out, _) = text(&asked);
+    assert!(
+        code != 0 && out.contains("cannot be followed to the machine with m = 60 kg: no step ends within"),
+        "{out}"
+    );
+    assert!(out.contains("the best design without uncertainty has climb_speed = 0.8856 m/s"), "{out}");
+    assert!(!out.contains("parameter  value"), "{out}");
+    let (_, solution) = json(&asked);
+    assert_eq!(solution["status"].as_str(), Some("no_gait"), "{solution:#}");
+    assert_eq!(number(&solution, "/robust/lost/parameters/m"), 60.0);
+    assert!(solution["objective"]["value"].is_null() && number(&solution, "/robust/nominal") > 0.8, "{solution:#}");
+}
+
 /// A machine that no design makes fast enough is named with its constraint.
 #[test]
 fn a_constraint_that_one_machine_cannot_meet() {

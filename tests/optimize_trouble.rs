@@ -114,6 +114,25 @@ fn trouble_ends_in_the_right_message() {
     }
 }
 
+/// A parameter in GN/m beside one in mm changes nothing; a range in GN/m that hides the values that matter is said to be too wide.
+#[test]
+fn badly_scaled_ranges() {
+    let asked = |flags: &[&str]| json(&[&["optimize", "power_stroke"], flags].concat());
+    let (_, plain) = asked(&[]);
+    let (code, scaled) = asked(&["--vary", "k=0..200e-9 GN/m", "--vary", "l_s=50..300 mm"]);
+    assert_eq!(code, 0, "{scaled:#}");
+    for path in ["/objective/value", "/parameters/k", "/parameters/l_s"] {
+        approx::assert_relative_eq!(number(&scaled, path), number(&plain, path), max_relative = 1e-8);
+    }
+    let (code, wide) = asked(&["--vary", "k=0..1 GN/m", "--vary", "l_s=50..300 mm"]);
+    assert_eq!((code, wide["status"].as_str()), (2, Some("unconfirmed")), "{wide:#}");
+    let message = wide["message"].as_str().unwrap();
+    assert!(
+        message.contains("the range of `k` is too wide to tell ") && message.contains(" from its bound 0 "),
+        "{message}"
+    );
+}
+
 #[test]
 fn a_constraint_that_always_holds_is_pointed_out() {
     let args = [&["optimize", "prescribed_length"][..], &FAST, &["--subject-to", "omega <= 30 rad/s"]].concat();
@@ -260,4 +279,37 @@ fn conflicts_of_trade_offs_are_in_units() {
     let (code, value) = json(&[&["optimize", "prescribed_length"], &trade[..]].concat());
     let message = value["message"].as_str().unwrap();
     assert!(code == 2 && message.contains("`peak_force` is at least ") && message.contains(" N "), "{value:#}");
+}
+
+/// The largest push and the largest pull of the leg compete: the smallest of the larger one is where they are equal. Found again by a
+/// golden section over gaits, which knows no derivative.
+#[test]
+fn an_extremum_whose_place_jumps_is_minimised() {
+    let at_rate = ["--set", "omega=10 rad/s"];
+    let flags = ["--minimize", "peak_force", "--vary", PSI];
+    let (code, value) = json(&[&["optimize", "prescribed_length"], &at_rate[..], &flags].concat());
+    assert_eq!((code, value["status"].as_str()), (0, Some("optimal")), "{value:#}");
+    assert!(value["notes"].to_string().contains("several places at once"), "{value:#}");
+    let force = |psi: f64| {
+        let set = format!("psi={psi} deg");
+        let (_, gait) = json(&[&["gait", "prescribed_length"], &at_rate[..], &["--set", &set]].concat());
+        number(&gait, "/measures/peak_force")
+    };
+    let (mut a, mut b) = (39.5, 41.5);
+    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut c, mut d) = (b - ratio * (b - a), a + ratio * (b - a));
+    let (mut at_c, mut at_d) = (force(c), force(d));
+    while b - a > 1e-7 {
+        if at_c < at_d {
+            (b, d, at_d) = (d, c, at_c);
+            c = b - ratio * (b - a);
+            at_c = force(c);
+        } else {
+            (a, c, at_c) = (c, d, at_d);
+            d = a + ratio * (b - a);
+            at_d = force(d);
+        }
+    }
+    approx::assert_relative_eq!(number(&value, "/objective/value"), f64::min(at_c, at_d), max_relative = 1e-8);
+    approx::assert_abs_diff_eq!(number(&value, "/parameters/psi").to_degrees(), 0.5 * (a + b), epsilon = 1e-5);
 }

@@ -119,6 +119,20 @@ pub struct MapResult {
     pub warnings: Vec<Warning>,
 }
 
+/// A place where an extremal functional could have been taken: all measures as if it had been taken there. Those of the place
+/// where it was taken are the measures of the map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Index into `info().functionals`.
+    pub functional: usize,
+    /// The place, as a fraction of the duration of the map.
+    pub phase: f64,
+    /// Measures, in the order of `info().measures`.
+    pub measures: DVector<f64>,
+    /// Their derivative, measures x c.
+    pub measures_jacobian: DMatrix<f64>,
+}
+
 /// A transition that fired.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
@@ -312,6 +326,15 @@ pub trait ReturnMap: Send + Sync {
     /// As [`Self::evaluate`].
     fn plan(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Option<Plan>), RequestError> {
         Ok((self.evaluate(request)?, None))
+    }
+
+    /// Evaluates the map, and says where else its extremal functionals could have been taken: local extrema and ends of segments,
+    /// the best few of each functional in order of time, the one taken among them. None for a map that does not know.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    fn candidates(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Vec<Candidate>), RequestError> {
+        Ok((self.evaluate(request)?, Vec::new()))
     }
 
     /// Replays a plan at each point, one after the other; `images` says where it held.

@@ -5,11 +5,14 @@
 mod optimize_support;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+use gaitc_runtime::model::ModelInfo;
 use gaitc_runtime::optimize::{
     ActiveKind, Bound, Constraint, ConstraintKind, Objective, Problem, ProblemError, RobustSolution, Sense, Shape,
     Status, Uncertain, Vary, solve, solve_robust,
 };
+use gaitc_runtime::return_map::{MapOutcome, MapRequest, RequestError, ReturnMap};
 use optimize_support::{Closed, Dual, Formed, about, expression, margin, problem, spectral};
+use std::sync::Mutex;
 
 /// p0 is the design, p1 uncertain, p2 fixed. The gait of the machine is z = p0 - p1, its multiplier 0.4; measure: z.
 fn difference() -> Closed {
@@ -195,6 +198,48 @@ fn machines_without_a_gait_inside_the_box_leave_the_answer_unconfirmed() {
     assert!(!found.exceptions.is_empty());
     assert!(found.exceptions.iter().all(|e| (e.values[0] - 0.5).abs() < 0.05), "{:?}", found.exceptions);
     assert!(found.solution.message.contains("`p1` = 0."), "{}", found.solution.message);
+}
+
+/// A map without a step for machines beyond p1 = 0.8, which notes how long its runs there would be allowed to take.
+struct Endless {
+    closed: Closed,
+    longest: Mutex<f64>,
+}
+
+impl ReturnMap for Endless {
+    fn info(&self) -> &'static ModelInfo {
+        self.closed.info()
+    }
+
+    fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError> {
+        if request.parameters[1] > 0.8 {
+            let mut longest = self.longest.lock().unwrap();
+            *longest = longest.max(request.accuracy.time_limit);
+        }
+        self.closed.evaluate(request)
+    }
+}
+
+/// Where no gait leads to a machine, that machine is named, nothing else is shown as if it were the answer, and the runs from which no
+/// step ends were given up long before the time limit of a single map.
+#[test]
+fn a_machine_without_a_gait_is_named_early() {
+    let closed = Closed::new(1, 3, 1, |z, p| {
+        (p[1].v <= 0.8).then(|| (about(z, &[p[0] - p[1]], &[vec![Dual::constant(0.4)]]), vec![z[0]]))
+    });
+    let map = Endless { closed, longest: Mutex::new(0.0) };
+    let nominal = design(&map.closed, Sense::Minimize, expression(|m, _| m[0] * m[0]), [0.0, 0.3, 0.0]);
+    let nominal = Problem { map: &map, ..nominal };
+    let limit = nominal.settings.accuracy.time_limit;
+    let found = solve_robust(nominal, &[Uncertain { parameter: 1, lower: 0.2, upper: 1.0 }]).unwrap();
+    assert_eq!(found.solution.status, Status::NoGait, "{}", found.solution.message);
+    assert_eq!(found.lost.expect("a machine").values, [1.0]);
+    assert!(found.solution.message.contains("cannot be followed to `p1` = 1"), "{}", found.solution.message);
+    assert!(found.solution.measures.is_empty() && found.solution.objective.is_nan(), "{:?}", found.solution);
+    assert_abs_diff_eq!(found.nominal, 0.0, epsilon = 1e-9);
+    // Its gaits take a second.
+    let longest = *map.longest.lock().unwrap();
+    assert!(longest > 0.0 && longest <= 20.0 && longest < limit, "{longest} s");
 }
 
 #[test]

@@ -13,7 +13,7 @@ use common::{check_derivatives, completed, request, stopped};
 use gaitc_runtime::interrupt::Interrupt;
 use gaitc_runtime::orbit::{GaitRequest, GaitStatus, find_gait};
 use gaitc_runtime::return_map::{
-    Accuracy, Images, MapRequest, Points, RequestError, ReturnMap, Sensitivity, StopReason, Warning,
+    Accuracy, Images, MapOutcome, MapRequest, Points, RequestError, ReturnMap, Sensitivity, StopReason, Warning,
 };
 use std::time::Duration;
 
@@ -46,6 +46,35 @@ fn bouncing_ball_has_its_closed_forms() {
     let three = completed(&BALL, &three);
     assert_abs_diff_eq!(three.jacobian[(0, 0)], e * e * e, epsilon = 1e-13);
     assert_eq!(three.events.len(), 3);
+}
+
+/// Over three bounces the height is largest at the first apex; the others, and the ground, are where it could have been taken.
+#[test]
+fn extrema_name_the_places_where_they_could_have_been_taken() {
+    let (g, e, v) = (9.81_f64, 0.8_f64, 3.0_f64);
+    let (z, p) = ([v], [g, e]);
+    let ask = MapRequest { period: 3, measures: true, ..request(&z, &p, ALL) };
+    let (outcome, candidates) = BALL.candidates(&ask).unwrap();
+    let MapOutcome::Completed(map) = outcome else { panic!("it bounces") };
+    let height = candidates.iter().filter(|c| c.functional == candidates[0].functional);
+    let apexes: Vec<_> = height.filter(|c| c.measures[0] > 0.1).collect();
+    assert_eq!(apexes.len(), 3, "{candidates:#?}");
+    let duration: f64 = (0..3).map(|k| 2.0 * v * e.powi(k) / g).sum();
+    let mut start = 0.0;
+    for (k, apex) in apexes.into_iter().enumerate() {
+        let speed = v * e.powi(k as i32);
+        assert_abs_diff_eq!(apex.phase, (start + speed / g) / duration, epsilon = 1e-9);
+        assert_abs_diff_eq!(apex.measures[0], speed * speed / (2.0 * g), epsilon = 1e-12);
+        let by_restitution = speed / g * v * k as f64 * e.powi(k as i32 - 1);
+        let exact = [speed / g * e.powi(k as i32), -speed * speed / (2.0 * g * g), by_restitution];
+        for (column, exact) in exact.iter().enumerate() {
+            assert_abs_diff_eq!(apex.measures_jacobian[(0, column)], exact, epsilon = 1e-11);
+        }
+        start += 2.0 * speed / g;
+    }
+    let taken = candidates.iter().find(|c| c.measures == map.measures).expect("the one that was taken is among them");
+    assert_eq!(taken.measures_jacobian, map.measures_jacobian);
+    assert_eq!(completed(&BALL, &ask).measures, map.measures);
 }
 
 /// z is the speed just before an impact: z+ = e z, or z where the impact is slow, and the flight takes 2 e |z| / g.

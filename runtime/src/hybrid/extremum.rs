@@ -25,21 +25,21 @@ where
     /// Offers the place where the run is, an end of a segment.
     pub(crate) fn observe_boundary(&mut self, place: &Place<N, C>) {
         let (segment, x, tau) = (&self.segment, (&self.step.start.x, &self.step.start_rates.x), self.step.tau);
-        for extremum in &mut self.functionals.extrema {
-            let candidate =
-                observe::<M, N, P, Q, C>(extremum.observable, segment.mode, x, &segment.env(tau), |g, c| {
-                    along(
-                        g,
-                        Variation {
-                            dx: &place.dx[c],
-                            dk: &place.dk[c],
-                            dp: &segment.dp[c],
-                            dtau: place.dtau[c],
-                            dt: place.dt[c],
-                        },
-                    )
-                });
-            extremum.offer(candidate);
+        for e in 0..self.functionals.extrema.len() {
+            let observable = self.functionals.extrema[e].observable;
+            let candidate = observe::<M, N, P, Q, C>(observable, segment.mode, x, &segment.env(tau), |g, c| {
+                along(
+                    g,
+                    Variation {
+                        dx: &place.dx[c],
+                        dk: &place.dk[c],
+                        dp: &segment.dp[c],
+                        dtau: place.dtau[c],
+                        dt: place.dt[c],
+                    },
+                )
+            });
+            self.functionals.offer(e, segment.start + tau, candidate);
         }
     }
 
@@ -59,11 +59,15 @@ where
                 peak.read::<M, N, P, Q>(frame, step.tau + step.h, &end),
             );
             let best = extremum.best.map_or(f64::NEG_INFINITY, |best| peak.sense * best.value);
-            let better_than = best - 1e-6 * (ends.0.0.abs() + ends.1.0.abs());
+            // Where all places are wanted, the largest of each step is one.
+            let better_than = match self.functionals.offered {
+                Some(_) => f64::NEG_INFINITY,
+                None => best - 1e-6 * (ends.0.0.abs() + ends.1.0.abs()),
+            };
             let (work, evaluations) = (&mut self.work, &mut self.statistics.evaluations);
             if let Some(h) = peak.find::<X, M, N, P, Q>(frame, &step, ends, better_than, work, evaluations) {
                 let candidate = Self::observe_inside(&self.segment, &self.step, peak.observable, h, work, evaluations);
-                self.functionals.extrema[e].offer(candidate);
+                self.functionals.offer(e, self.segment.start + self.step.tau + h, candidate);
             }
         }
     }

@@ -61,7 +61,7 @@ pub(crate) struct Extremum<const C: usize> {
 
 impl<const C: usize> Extremum<C> {
     /// Takes a candidate if it is better than the best so far.
-    pub(crate) fn offer(&mut self, candidate: Varied<C>) {
+    fn offer(&mut self, candidate: Varied<C>) {
         let better = self.best.is_none_or(|best| self.sense * candidate.value > self.sense * best.value);
         if better || candidate.value.is_nan() {
             self.best = Some(candidate);
@@ -69,11 +69,24 @@ impl<const C: usize> Extremum<C> {
     }
 }
 
+/// A place where an extremum could be taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Offered<const C: usize> {
+    /// Index into the functionals.
+    pub(crate) functional: usize,
+    /// Time since the start of the map (s).
+    pub(crate) time: f64,
+    /// The observable there.
+    pub(crate) varied: Varied<C>,
+}
+
 /// The functionals that are not plain integrals, as far as they are known.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Functionals<const C: usize> {
     /// Extrema over the whole map.
     pub(crate) extrema: Vec<Extremum<C>>,
+    /// All places that were offered, where they are wanted.
+    pub(crate) offered: Option<Vec<Offered<C>>>,
     /// Values at the start of the map: functional, value.
     starts: Vec<(usize, Varied<C>)>,
     /// Values at the end of the map: functional, value.
@@ -92,7 +105,17 @@ impl<const C: usize> Functionals<C> {
             };
             extrema.push(Extremum { functional, observable, sense, best: None });
         }
-        Self { extrema, starts: Vec::new(), ends: Vec::new() }
+        Self { extrema, offered: None, starts: Vec::new(), ends: Vec::new() }
+    }
+
+    /// Offers extremum number `number` the observable at a place.
+    pub(crate) fn offer(&mut self, number: usize, time: f64, varied: Varied<C>) {
+        let Some(extremum) = self.extrema.get_mut(number) else { return };
+        extremum.offer(varied);
+        let functional = extremum.functional;
+        if let Some(offered) = &mut self.offered {
+            offered.push(Offered { functional, time, varied });
+        }
     }
 
     /// Records the observables of all `Start` functionals.

@@ -3,9 +3,11 @@
 //! [`Hybrid`] implements the object-safe [`ReturnMap`] on top of [`Model`]. All inner loops are compiled for the model
 //! and for the number of sensitivity columns (padded to the next width in store; more columns take several passes).
 
+mod candidates;
 mod extremum;
 mod follow;
 mod functionals;
+mod gather;
 mod landing;
 mod map;
 mod passing;
@@ -22,14 +24,15 @@ use crate::integrate::{Bare, Carried, Explicit, Radau, Whole};
 use crate::model::{Model, ModelInfo, Section};
 use crate::replay::Record;
 use crate::return_map::{
-    AlsoZeroAt, Images, MapOutcome, MapRequest, MapResult, Method, Piece, PieceEnd, Plan, Points, RequestError,
+    Candidate, Images, MapOutcome, MapRequest, MapResult, Method, Piece, PieceEnd, Plan, Points, RequestError,
     ReturnMap, SecondOrder, Sensitivity, Stop, StopReason,
 };
 use crate::trajectory::{FollowRequest, Trajectory};
 use core::marker::PhantomData;
-use functionals::{Functionals, Varied};
-use map::{Coordinates, Reached};
-use nalgebra::{DMatrix, DVector};
+use functionals::Functionals;
+use gather::{append, gather};
+use map::Coordinates;
+use nalgebra::DVector;
 pub(crate) use passing::GRAZING;
 pub(crate) use resolution::{FAR, MISFIT, PLACES};
 use run::Run;
@@ -60,28 +63,29 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
         request: &MapRequest<'_>,
         section: Section,
         method: Method,
-    ) -> Result<MapResult, Failure> {
+        kept: Kept,
+    ) -> Result<(MapResult, Vec<Candidate>), Failure> {
         let coordinates = M::INFO.coordinates.len();
         let (count, chosen): (usize, &[usize]) = match request.sensitivity {
             Sensitivity::None => (0, &[]),
             Sensitivity::Coordinates => (coordinates, &[]),
             Sensitivity::CoordinatesAndParameters(chosen) => (coordinates + chosen.len(), chosen),
         };
-        let mut result: Option<MapResult> = None;
+        let mut result: Option<(MapResult, Vec<Candidate>)> = None;
         let mut first = 0;
         let bare = !request.measures && chosen.is_empty();
         loop {
             let width = (count - first).min(if bare { WIDEST_BARE } else { WIDEST_WHOLE });
-            let columns = Columns { first, width, coordinates, chosen, bare, recorded: false };
+            let columns = Columns { first, width, coordinates, chosen, bare, kept };
             let part = match method {
                 Method::Explicit | Method::Automatic => explicit::<M, N, P, Q>(request, section, columns),
                 Method::Radau5 => radau5::<M, N, P, Q>(request, section, columns),
                 Method::Radau3 => radau3::<M, N, P, Q>(request, section, columns),
             };
-            let (part, _) = part?;
+            let (part, extra) = part?;
             result = Some(match result {
-                None => part,
-                Some(all) => append(all, part),
+                None => (part, extra.candidates),
+                Some((all, places)) => (append(all, part), candidates::append(places, &extra.candidates)),
             });
             first += width;
             if first >= count {
@@ -89,6 +93,29 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> Hybrid<M
             }
         }
         result.ok_or_else(Failure::impossible)
+    }
+
+    /// The map by the method that is asked for, or that fits; with the candidates for its extrema where these are kept.
+    fn evaluate_keeping(
+        &self,
+        request: &MapRequest<'_>,
+        kept: Kept,
+    ) -> Result<(MapOutcome, Vec<Candidate>), RequestError> {
+        let section = request::check(M::INFO, request)?;
+        let asked = request.accuracy.method;
+        let first = match asked {
+            Method::Automatic if M::INFO.explicit => Method::Explicit,
+            Method::Automatic => Method::Radau5,
+            method => method,
+        };
+        let mut result = self.evaluate_columns(request, section, first, kept);
+        if asked == Method::Automatic && result.as_ref().is_err_and(|failure| failure.stiff) {
+            result = self.evaluate_columns(request, section, Method::Radau5, kept);
+        }
+        Ok(match result {
+            Ok((result, candidates)) => (MapOutcome::Completed(Box::new(result)), candidates),
+            Err(failure) => (MapOutcome::Stopped(failure.stop), Vec::new()),
+        })
     }
 }
 
@@ -98,21 +125,11 @@ impl<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize> ReturnMa
     }
 
     fn evaluate(&self, request: &MapRequest<'_>) -> Result<MapOutcome, RequestError> {
-        let section = request::check(M::INFO, request)?;
-        let asked = request.accuracy.method;
-        let first = match asked {
-            Method::Automatic if M::INFO.explicit => Method::Explicit,
-            Method::Automatic => Method::Radau5,
-            method => method,
-        };
-        let mut result = self.evaluate_columns(request, section, first);
-        if asked == Method::Automatic && result.as_ref().is_err_and(|failure| failure.stiff) {
-            result = self.evaluate_columns(request, section, Method::Radau5);
-        }
-        Ok(match result {
-            Ok(result) => MapOutcome::Completed(Box::new(result)),
-            Err(failure) => MapOutcome::Stopped(failure.stop),
-        })
+        Ok(self.evaluate_keeping(request, Kept::Nothing)?.0)
+    }
+
+    fn candidates(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Vec<Candidate>), RequestError> {
+        self.evaluate_keeping(request, if request.measures { Kept::Candidates } else { Kept::Nothing })
     }
 
     fn plan(&self, request: &MapRequest<'_>) -> Result<(MapOutcome, Option<Plan>), RequestError> {
@@ -168,7 +185,23 @@ struct Columns<'a> {
     coordinates: usize,
     chosen: &'a [usize],
     bare: bool,
-    recorded: bool,
+    kept: Kept,
+}
+
+/// What a pass keeps besides its result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kept {
+    Nothing,
+    /// What a plan is made of.
+    Plan,
+    /// Where extrema could have been taken.
+    Candidates,
+}
+
+/// What was kept.
+struct Extra {
+    plan: Option<Plan>,
+    candidates: Vec<Candidate>,
 }
 
 /// A pass that did not reach the section, and whether stiffness is to blame.
@@ -198,7 +231,7 @@ fn explicit<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<(MapResult, Option<Plan>), Failure> {
+) -> Result<(MapResult, Extra), Failure> {
     // Nothing of it is compiled for models that have no explicit flow.
     if const { !M::INFO.explicit } {
         return Err(Failure::impossible());
@@ -220,7 +253,7 @@ fn radau5<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<(MapResult, Option<Plan>), Failure> {
+) -> Result<(MapResult, Extra), Failure> {
     if !columns.bare || const { M::INFO.explicit } {
         return widths!(Radau<5>, Whole, Q, (request, section, columns); 8);
     }
@@ -236,7 +269,7 @@ fn radau3<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<(MapResult, Option<Plan>), Failure> {
+) -> Result<(MapResult, Extra), Failure> {
     if const { M::INFO.explicit } {
         return Err(Failure::impossible());
     }
@@ -247,7 +280,7 @@ fn pass<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize,
     request: &MapRequest<'_>,
     section: Section,
     columns: Columns<'_>,
-) -> Result<(MapResult, Option<Plan>), Failure>
+) -> Result<(MapResult, Extra), Failure>
 where
     X: integrate::Method,
     M: Model<N, P, Q>,
@@ -266,119 +299,22 @@ where
             dp[c][parameter] = 1.0;
         }
     }
-    let functionals = Functionals::new(M::INFO, request.measures);
+    let mut functionals = Functionals::new(M::INFO, request.measures);
+    functionals.offered = (columns.kept == Kept::Candidates).then(Vec::new);
     let mut run = Run::<X, M, R, N, P, Q, W, C>::new(request.accuracy, &p, (dp, columns.width), functionals);
-    run.record = columns.recorded.then(Record::default);
+    run.record = (columns.kept == Kept::Plan).then(Record::default);
     match run.map(request, section, at) {
         Ok(reached) => {
             let plan = run.record.take().and_then(|record| record.plan(M::INFO, request.accuracy));
-            Ok((gather(&run, request, columns, &reached), plan))
+            let candidates = match columns.kept {
+                Kept::Candidates => candidates::gather(&run, columns.width.min(C)),
+                Kept::Nothing | Kept::Plan => Vec::new(),
+            };
+            Ok((gather(&run, request, columns, &reached), Extra { plan, candidates }))
         }
         Err(reason) => {
             let stop = Stop { reason, time: run.time(), state: run.step.start.x.to_vec() };
             Err(Failure { stop, stiff: run.stiff() })
         }
     }
-}
-
-fn gather<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>(
-    run: &Run<'_, X, M, R, N, P, Q, W, C>,
-    request: &MapRequest<'_>,
-    columns: Columns<'_>,
-    reached: &Reached<N, C>,
-) -> MapResult
-where
-    X: integrate::Method,
-    M: Model<N, P, Q>,
-    R: Carried<M, N, P, Q, W, C>,
-{
-    let (d, width) = (columns.coordinates, columns.width.min(C));
-    let duration = run.duration();
-    let functionals = if request.measures { run.functionals() } else { Vec::new() };
-    let (measures, measures_jacobian) = if request.measures {
-        measures::<M, N, P, Q, C>(&functionals, &run.segment.dp, run.segment.p, width)
-    } else {
-        (DVector::zeros(0), DMatrix::zeros(0, width))
-    };
-    MapResult {
-        coordinates: DVector::from_fn(d, |i, _| reached.at.z[i]),
-        jacobian: DMatrix::from_fn(d, width, |i, c| reached.at.dz[c][i]),
-        state: DVector::from_column_slice(&reached.first),
-        end: DVector::from_column_slice(&reached.end),
-        duration: duration.value,
-        duration_gradient: DVector::from_fn(width, |c, _| duration.gradient[c]),
-        measures,
-        measures_jacobian,
-        events: run.events.clone(),
-        also_zero: also_zero(M::INFO, &functionals),
-        method: X::KIND,
-        statistics: run.statistics,
-        warnings: run.warnings.clone(),
-    }
-}
-
-/// The functions that vanish with a guard, from their functionals.
-fn also_zero<const C: usize>(info: &ModelInfo, functionals: &[Varied<C>]) -> Vec<AlsoZeroAt> {
-    let value = |i: usize| functionals.get(i).map(|f| f.value);
-    let listed = info.transitions.iter().enumerate().flat_map(|(transition, t)| {
-        t.also_zero.iter().enumerate().map(move |(index, listed)| (transition, index, listed))
-    });
-    listed
-        .filter_map(|(transition, index, listed)| {
-            let (start, end, rate) = (value(listed.start)?, value(listed.end)?, value(listed.rate)?);
-            Some(AlsoZeroAt { transition, index, start, end, rate })
-        })
-        .collect()
-}
-
-/// Measures and their derivatives along the columns, by the chain rule.
-fn measures<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, const C: usize>(
-    functionals: &[Varied<C>],
-    dp: &[[f64; P]; C],
-    p: &[f64; P],
-    width: usize,
-) -> (DVector<f64>, DMatrix<f64>) {
-    let values: Vec<f64> = functionals.iter().map(|f| f.value).collect();
-    let (m, f) = (M::INFO.measures.len(), values.len());
-    let mut measures = vec![0.0; m];
-    M::measures(&values, p, &mut measures);
-    let mut by_functional = vec![0.0; m * f];
-    let mut by_parameter = vec![[0.0; P]; m];
-    if width > 0 {
-        M::measures_jacobian(&values, p, &mut by_functional, &mut by_parameter);
-    }
-    let jacobian = DMatrix::from_fn(m, width, |i, c| {
-        let mut sum = 0.0;
-        for j in 0..f {
-            let slope = by_functional[i * f + j];
-            // A functional that a measure does not depend on must not spoil it.
-            if slope != 0.0 {
-                sum += slope * functionals[j].gradient[c];
-            }
-        }
-        for j in 0..P {
-            sum += by_parameter[i][j] * dp[c][j];
-        }
-        sum
-    });
-    (DVector::from_vec(measures), jacobian)
-}
-
-/// Appends the columns of a further pass of the same map.
-fn append(mut all: MapResult, part: MapResult) -> MapResult {
-    let side_by_side = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
-        DMatrix::from_fn(a.nrows(), a.ncols() + b.ncols(), |i, j| {
-            if j < a.ncols() { a[(i, j)] } else { b[(i, j - a.ncols())] }
-        })
-    };
-    all.jacobian = side_by_side(&all.jacobian, &part.jacobian);
-    all.measures_jacobian = side_by_side(&all.measures_jacobian, &part.measures_jacobian);
-    let split = all.duration_gradient.len();
-    all.duration_gradient = DVector::from_fn(split + part.duration_gradient.len(), |c, _| {
-        if c < split { all.duration_gradient[c] } else { part.duration_gradient[c - split] }
-    });
-    all.statistics.steps += part.statistics.steps;
-    all.statistics.rejected += part.statistics.rejected;
-    all.statistics.evaluations += part.statistics.evaluations;
-    all
 }

@@ -1,6 +1,6 @@
 //! Plans and replays of a compiled model's return map.
 
-use super::{Columns, Hybrid, explicit, request};
+use super::{Columns, Hybrid, Kept, explicit, request};
 use crate::model::{Model, ModelInfo, Section};
 use crate::replay::{
     Checks, Images, Piece, PieceEnd, Plan, Points, SecondOrder, run_piece, second_order as along_pairs, side_by_side,
@@ -20,9 +20,10 @@ pub(super) fn plan<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: u
     let width = M::INFO.coordinates.len();
     let by_explicit = M::INFO.explicit && matches!(request.accuracy.method, Method::Automatic | Method::Explicit);
     if by_explicit && !request.measures && width <= super::WIDEST_BARE {
-        let columns = Columns { first: 0, width, coordinates: width, chosen: &[], bare: true, recorded: true };
+        let columns = Columns { first: 0, width, coordinates: width, chosen: &[], bare: true, kept: Kept::Plan };
         match explicit::<M, N, P, Q>(request, section, columns) {
-            Ok((result, plan)) => {
+            Ok((result, extra)) => {
+                let plan = extra.plan;
                 let plan = plan.filter(|_| result.warnings.is_empty());
                 let plan = plan.and_then(|plan| spread::<M, N, P, Q>(plan, request));
                 return Ok((MapOutcome::Completed(Box::new(result)), plan));

@@ -1,10 +1,11 @@
 //! One start: its gait, the search from there, the way round where that search ends without an optimum, the verdict.
 
 use super::gait::{NoGait, Start};
+use super::pieces;
 use super::problem::{Problem, ProblemError, Sense};
-use super::program::{Failure, Program};
+use super::program::Failure;
 use super::restore::{Blocked, Restored, restore};
-use super::search;
+use super::scene::Scene;
 use super::solution::Status;
 use super::starts;
 use super::task::Task;
@@ -82,9 +83,8 @@ pub(super) fn from(problem: &Problem<'_>, start: &Start) -> Result<Verdict, Prob
 }
 
 fn judged(problem: &Problem<'_>, start: &Start) -> Result<Verdict, Failure> {
-    let program = Program::new(problem, Task::asked(problem), &start.parameters, &start.section)?;
-    let point = verdict::starting_point(&program, &start.parameters, &start.section)?;
-    let ended = search::search(&program, point)?;
+    let from = (start.parameters.as_slice(), start.section.as_slice());
+    let (program, ended) = pieces::searched(problem, &Task::asked(problem), &[Scene::default()], from)?;
     verdict::verdict(&program, ended).map_err(Failure::Wrong)
 }
 

@@ -9,6 +9,10 @@ pub(super) const NEWTON_STEPS: usize = 50;
 /// ... and to the next one on the way: more would say that the way is too long.
 const CORRECTIONS: usize = 10;
 
+/// A run is given up when it takes so many times longer than the gait that is followed; more than what a search refuses as another
+/// gait.
+const PATIENCE: f64 = 20.0;
+
 /// Why there is no gait.
 #[derive(Clone, Debug)]
 pub(super) enum NoGait {
@@ -62,26 +66,40 @@ pub(super) fn map(
 
 /// The gait near a guess.
 pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
-    within(problem, parameters, guess, NEWTON_STEPS)
+    let (section, _) = within(problem, parameters, guess, NEWTON_STEPS, problem.settings.accuracy)?;
+    Ok(section)
 }
 
-/// The gait near a guess, in so many Newton steps from each of its starts.
-fn within(problem: &Problem<'_>, parameters: &[f64], guess: &[f64], steps: usize) -> Result<Vec<f64>, NoGait> {
+/// The gait near a guess, in so many Newton steps from each of its starts, and its duration (s).
+fn within(
+    problem: &Problem<'_>,
+    parameters: &[f64],
+    guess: &[f64],
+    steps: usize,
+    accuracy: Accuracy,
+) -> Result<(Vec<f64>, f64), NoGait> {
     let request = GaitRequest {
         period: problem.period,
         iteration_limit: steps,
-        accuracy: problem.settings.accuracy,
+        accuracy,
         measures: false,
         tolerance: f64::max(1e-10, 10.0 * problem.settings.accuracy.relative),
         ..GaitRequest::new(parameters, &problem.memory)
     };
     let outcome = find_gait(problem.map, &request, guess).map_err(|error| NoGait::Wrong(error.into()))?;
     match (outcome.status, outcome.gait) {
-        (GaitStatus::Converged, Some(gait)) => Ok(gait.coordinates.as_slice().to_vec()),
+        (GaitStatus::Converged, Some(gait)) => Ok((gait.coordinates.as_slice().to_vec(), gait.map.duration)),
         (GaitStatus::Stopped(stop), _) => Err(NoGait::Stopped(stop)),
         (GaitStatus::Open(open), _) => Err(NoGait::Open(open.describe(problem.map.info()))),
         _ => Err(NoGait::NotConverged(outcome.residual)),
     }
+}
+
+/// The accuracy of maps near a gait of this duration (s): a run that goes on much longer leads to none of the same kind, and is
+/// given up, so that places from which no step ends cost little.
+pub(super) fn patient(accuracy: Accuracy, duration: f64) -> Accuracy {
+    let limit = PATIENCE * duration;
+    Accuracy { time_limit: if limit > 0.0 { accuracy.time_limit.min(limit) } else { accuracy.time_limit }, ..accuracy }
 }
 
 /// Follows a gait from one set of parameters to another.
@@ -96,9 +114,19 @@ pub(super) fn follow(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<
 /// # Errors
 /// Only for a problem that is wrong as stated.
 pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Result<(Start, Option<NoGait>), NoGait> {
-    let gait = |parameters: &[f64], guess: &[f64]| match problem.settings.interrupt.requested() {
-        true => Err(NoGait::Interrupted),
-        false => within(problem, parameters, guess, CORRECTIONS),
+    let accuracy = problem.settings.accuracy;
+    let mut longest = match map(problem, &from.parameters, &from.section, accuracy, false) {
+        Ok(first) => first.duration,
+        Err(NoGait::Wrong(error)) => return Err(NoGait::Wrong(error)),
+        Err(_) => f64::INFINITY,
+    };
+    let gait = |parameters: &[f64], guess: &[f64]| {
+        if problem.settings.interrupt.requested() {
+            return Err(NoGait::Interrupted);
+        }
+        let (section, duration) = within(problem, parameters, guess, CORRECTIONS, patient(accuracy, longest))?;
+        longest = longest.max(duration);
+        Ok(section)
     };
     let is_final = |failure: &NoGait| matches!(failure, NoGait::Interrupted | NoGait::Wrong(_));
     let followed = follow::follow((&from.parameters, &from.section), to, gait, is_final);

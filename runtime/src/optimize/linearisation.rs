@@ -4,7 +4,7 @@
 use super::factors::{Factor, Groups};
 use super::jacobian_derivative::{JacobianDerivative, jacobian_derivative};
 use super::jury;
-use super::problem::{ConstraintKind, Value};
+use super::problem::Value;
 use super::program::{Failure, Point, Program, Row};
 use nalgebra::{DMatrix, DVector};
 
@@ -53,9 +53,14 @@ impl Program<'_> {
         let mut groups = point.groups.iter();
         for (k, (row, &scene)) in self.rows.iter().zip(&self.row_scenes).enumerate() {
             match *row {
-                Row::Worst => c.set_row(k, &self.shortfall_gradient(scene, point)?.transpose()),
-                Row::Margin(i) => c.set_row(k, &self.margin_gradient(i, scene, point)?.transpose()),
                 // All rows of a block at once, when its first comes.
+                Row::Worst(0) | Row::Margin(_, 0) => {
+                    let image = (&point.map, point.candidates.as_slice());
+                    for (i, piece) in self.block_pieces(*row, scene, image, &point.parameters)?.iter().enumerate() {
+                        c.set_row(k + i, &self.piece_row_gradient(*row, piece, scene, point).transpose());
+                    }
+                }
+                Row::Worst(_) | Row::Margin(..) => {}
                 Row::Jury(of, 0) => {
                     for (i, (gradient, slope)) in self
                         .jury_gradients((of, scene), point, &derivative.along, groups.next())?
@@ -146,31 +151,29 @@ impl Program<'_> {
         Ok(gradient * (self.sign() / self.objective_scale))
     }
 
-    fn margin_gradient(&self, i: usize, scene: usize, point: &Point) -> Result<DVector<f64>, Failure> {
-        let constraint = &self.problem.constraints[i];
-        match &constraint.kind {
-            ConstraintKind::Margin { margin, scale } => {
-                let value = self.value(&constraint.name, margin.as_ref(), (scene, &point.map), &point.parameters)?;
-                Ok(self.total(&value, scene, point) / *scale)
-            }
-            ConstraintKind::SpectralRadius { .. } => Ok(DVector::zeros(self.len())),
-        }
-    }
-
     /// Total derivative of an expression of a scene with respect to u, through the measures.
     pub(super) fn total(&self, value: &Value, scene: usize, point: &Point) -> DVector<f64> {
-        let m = self.variables.free.len();
         let first = scene * value.dmeasures.len();
+        self.total_through(value, scene, |k, j| point.map.measures_jacobian[(first + k, self.column(j))])
+    }
+
+    /// The same with the derivative of measure k of the scene with respect to unknown j from a function.
+    pub(super) fn total_through(
+        &self,
+        value: &Value,
+        scene: usize,
+        slope: impl Fn(usize, usize) -> f64,
+    ) -> DVector<f64> {
+        let m = self.variables.free.len();
         let mut gradient = DVector::zeros(self.len());
         for j in 0..m + self.variables.nominal.len() {
-            let column = self.column(j);
             let through: f64 = value
                 .dmeasures
                 .iter()
                 .enumerate()
                 // A measure that does not matter may have no derivative there.
                 .filter(|(_, d)| **d != 0.0)
-                .map(|(k, d)| d * point.map.measures_jacobian[(first + k, column)])
+                .map(|(k, d)| d * slope(k, j))
                 .sum();
             let direct = match self.variables.free.get(j) {
                 Some(free) if !self.scenes[scene].changes(free.parameter) => value.dparameters[free.parameter],

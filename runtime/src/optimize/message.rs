@@ -100,14 +100,30 @@ fn optimal(problem: &Problem<'_>, solution: &Solution) -> String {
     }
 }
 
-/// The message where a parameter is limited by a bound in units of its range, but not in its own size; values in SI units.
+/// The message where a parameter is limited by a bound in units of its range, but not in its own size.
 pub(super) fn range_too_wide(problem: &Problem<'_>, parameter: usize, value: f64, bound: f64) -> String {
     let name = problem.map.info().parameters.get(parameter).map_or("?", |q| q.name);
-    let (least, most) = (0.01 * value.abs(), 100.0 * value.abs());
+    let in_words = |value: f64| quantity(problem, parameter, value);
+    let (least, most) = (in_words(0.01 * value.abs()), in_words(100.0 * value.abs()));
+    let (value, bound) = (in_words(value), in_words(bound));
     format!(
-        "the range of `{name}` is too wide to tell {value:.6} from its bound {bound:.6} (SI units); narrow it to the powers of \
-         ten that matter, such as {least:.3e} to {most:.3e} in magnitude"
+        "the range of `{name}` is too wide to tell {value} from its bound {bound}; narrow it to the powers of ten that matter, \
+         such as {least} to {most} in magnitude"
     )
+}
+
+/// A value of a parameter in SI units, to seven digits.
+pub(super) fn quantity(problem: &Problem<'_>, parameter: usize, value: f64) -> String {
+    let unit = match problem.map.info().parameters.get(parameter).map_or("1", |q| q.si) {
+        "1" => String::new(),
+        si => format!(" {si}"),
+    };
+    let digits = value.abs();
+    if digits != 0.0 && !(1e-3..1e6).contains(&digits) {
+        return format!("{value:.3e}{unit}");
+    }
+    let text = format!("{value:.6}");
+    format!("{}{unit}", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// What limits an optimum: active bounds and constraints, and what the gaits themselves do there.
@@ -219,7 +235,7 @@ pub(super) fn violations(program: &Program<'_>, point: &Point) -> String {
     };
     for (row, c) in program.rows.iter().zip(point.c.iter()) {
         if -c > tolerance
-            && let Row::Margin(i) | Row::Jury(Some(i), _) = *row
+            && let Row::Margin(i, _) | Row::Jury(Some(i), _) = *row
             && let Some(constraint) = program.problem.constraints.get(i)
         {
             add(format!("`{}` is violated", constraint.name), -c);
@@ -245,6 +261,26 @@ pub(super) fn kink(kink: &Kink) -> String {
         "multipliers meet near {:.6}{:+.6}i (relative gap {:.1e}): the spectral radius has a kink here, and to one side it \
          rises steeply",
         m.re, m.im, kink.gap
+    )
+}
+
+/// The message where the gait of the best design without uncertainty is lost on the way to a machine.
+pub(super) fn lost(machine: &str, why: &str) -> String {
+    format!(
+        "the best design without uncertainty has a gait, but it cannot be followed to {machine}: {why}; narrow the uncertain ranges, \
+         or start from values and a first guess that lead to a gait everywhere in them"
+    )
+}
+
+/// The note where extrema are taken at several places of the map at once, given as fractions of its duration.
+pub(super) fn places(name: &str, phases: &[f64]) -> String {
+    let name = if name == "the objective" { name.to_owned() } else { format!("`{name}`") };
+    let all: Vec<String> = phases.iter().map(|phase| format!("{:.1} %", 100.0 * phase)).collect();
+    let (last, others) = all.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
+    format!(
+        "an extremum in {name} is taken at several places at once here, after {} and {last} of the duration: it has a kink, and \
+         each of these places limits the optimum",
+        others.join(", ")
     )
 }
 

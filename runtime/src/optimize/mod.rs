@@ -33,9 +33,11 @@ mod jury;
 mod kkt;
 mod linearisation;
 mod lyapunov;
+mod maps;
 mod message;
 mod noise;
 mod optima;
+mod pieces;
 mod problem;
 mod program;
 mod quasi_newton;
@@ -65,7 +67,7 @@ pub use optima::Optimum;
 pub use problem::{
     Bound, Constraint, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Settings, Value, Vary,
 };
-pub use robust::{Exception, InTheWay, RobustSolution, Scenario, Uncertain, solve_robust};
+pub use robust::{Exception, InTheWay, Lost, RobustSolution, Scenario, Uncertain, solve_robust};
 pub use solution::{
     Active, ActiveKind, Confirmation, Curvature, Disturbed, Independent, Kink, Route, Sensitivity, Shape, Solution,
     Starts, Status,

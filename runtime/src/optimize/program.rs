@@ -9,20 +9,26 @@
 use super::factors::Groups;
 use super::jury;
 use super::kkt::infeasibility;
+use super::pieces::{self, Piece, Place};
 use super::problem::{Bound, ConstraintKind, Expression, Objective, Problem, ProblemError, Sense, Value};
 pub(super) use super::rows::Row;
 use super::rows::{rows, slots};
-use super::scene::{Scene, stacked};
+use super::scene::Scene;
 use super::task::{Goal, Task};
 use super::variables::{DEADBEAT, Free, Variables, nominal_sizes};
 use crate::orbit::{multipliers, spectral_radius};
-use crate::return_map::{MapOutcome, MapRequest, MapResult, Plan, RequestError, Sensitivity, Stop};
+use crate::return_map::{Candidate, MapResult, RequestError, Stop};
 use nalgebra::DVector;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// The value of a row that there is room for, and no factor.
 const NO_ROW: f64 = 1.0;
+
+/// How many rows the pieces of a margin or objective have.
+fn slots_of(split: bool) -> usize {
+    if split { pieces::MOST } else { 1 }
+}
 
 /// Why there are no values or derivatives at a point.
 #[derive(Clone, Debug)]
@@ -58,6 +64,10 @@ pub(super) struct Point {
     pub(super) c: DVector<f64>,
     /// The multipliers of each block of Jury rows in groups; empty where these do not matter.
     pub(super) groups: Vec<Groups>,
+    /// The places that compete for extrema, in each scene; none without pieces.
+    pub(super) candidates: Vec<Vec<Candidate>>,
+    /// Of each row, the place of its extremum, where it is one of several pieces.
+    pub(super) places: Vec<Option<Place>>,
 }
 
 /// The nonlinear program.
@@ -71,6 +81,8 @@ pub(super) struct Program<'a> {
     pub(super) rows: Vec<Row>,
     /// The machines that the design is for; usually one, as it is.
     pub(super) scenes: Vec<Scene>,
+    /// Whether margins and objective are split into pieces, one for each place of their extrema.
+    pub(super) split: bool,
     /// Of each row, the scene.
     pub(super) row_scenes: Vec<usize>,
     /// The epigraph variable at the start, SI units.
@@ -82,31 +94,23 @@ pub(super) struct Program<'a> {
     /// The groups of multipliers whose factors have the Jury rows; empty for all in one.
     pub(super) groups: Mutex<Vec<Groups>>,
     /// Single maps so far, each with its sensitivities.
-    worked: AtomicUsize,
+    pub(super) worked: AtomicUsize,
+    /// Duration of the gait that the search follows (s), as bits; infinite before there is one.
+    pub(super) followed: AtomicU64,
 }
 
 impl<'a> Program<'a> {
-    /// The program around a gait: scales of unknowns and rows are fixed here and never change.
+    /// The program around gaits of all scenes (at least one), given by their section coordinates one after the other; with `split`
+    /// in pieces. Scales of unknowns and rows are fixed here and never change.
     pub(super) fn new(
         problem: &'a Problem<'a>,
         task: Task,
-        parameters: &[f64],
-        section: &[f64],
-    ) -> Result<Self, Failure> {
-        Self::with_scenes(problem, task, vec![Scene::default()], parameters, section)
-    }
-
-    /// The same for several scenes (at least one), with the section coordinates of all their gaits one after the other.
-    pub(super) fn with_scenes(
-        problem: &'a Problem<'a>,
-        task: Task,
-        scenes: Vec<Scene>,
-        parameters: &[f64],
-        section: &[f64],
+        (scenes, split): (Vec<Scene>, bool),
+        (parameters, section): (&[f64], &[f64]),
     ) -> Result<Self, Failure> {
         let free = Variables::free(&problem.vary);
         let nominal = vec![1.0; section.len()];
-        let (rows, row_scenes) = rows(problem, &task, scenes.len()).into_iter().unzip();
+        let (rows, row_scenes) = rows(problem, &task, scenes.len(), slots_of(split)).into_iter().unzip();
         let mut program = Self {
             problem,
             task,
@@ -114,14 +118,16 @@ impl<'a> Program<'a> {
             variables: Variables { free, nominal, epigraph: None, floor: DEADBEAT },
             rows,
             scenes,
+            split,
             row_scenes,
             epigraph_start: 0.0,
             references: vec![1.0; problem.constraints.len()],
             objective_scale: 1.0,
             groups: Mutex::default(),
             worked: AtomicUsize::new(0),
+            followed: AtomicU64::new(f64::INFINITY.to_bits()),
         };
-        let map = program.map(parameters, section)?;
+        let (map, _) = program.image(parameters, section)?;
         program.variables.nominal = nominal_sizes(&map, section, &program.variables);
         if program.task.minimises_radius(problem) {
             let d = section.len();
@@ -144,13 +150,20 @@ impl<'a> Program<'a> {
             variables: Variables { free, ..self.variables.clone() },
             rows: self.rows.clone(),
             scenes: self.scenes.clone(),
+            split: self.split,
             row_scenes: self.row_scenes.clone(),
             epigraph_start: self.epigraph_start,
             references: self.references.clone(),
             objective_scale: self.objective_scale,
             groups: Mutex::new(self.groups()),
             worked: AtomicUsize::new(0),
+            followed: AtomicU64::new(f64::INFINITY.to_bits()),
         }
+    }
+
+    /// Counts on from the work of another program.
+    pub(super) fn continues(&mut self, other: &Self) {
+        self.worked = AtomicUsize::new(self.worked.load(Ordering::Relaxed) + other.worked.load(Ordering::Relaxed));
     }
 
     /// Whether the search has used up the work that it may do.
@@ -233,82 +246,12 @@ impl<'a> Program<'a> {
         holds && infeasibility(point) <= 10.0 * settings.attainable_feasibility()
     }
 
-    /// The return map with the sensitivities that the program needs.
-    fn map(&self, parameters: &[f64], section: &[f64]) -> Result<MapResult, Failure> {
-        let columns: Vec<usize> = self.variables.free.iter().map(|free| free.parameter).collect();
-        self.request(parameters, section, Sensitivity::CoordinatesAndParameters(&columns), true)
-    }
-
-    /// One evaluation of the map in every scene, stacked; a result that is not finite is a failure.
-    pub(super) fn request(
-        &self,
-        parameters: &[f64],
-        section: &[f64],
-        sensitivity: Sensitivity<'_>,
-        measures: bool,
-    ) -> Result<MapResult, Failure> {
-        if let [scene] = self.scenes.as_slice() {
-            return self.request_one(&scene.parameters(parameters), section, sensitivity, measures);
-        }
-        let one = |(s, scene): (usize, &Scene)| {
-            self.request_one(&scene.parameters(parameters), &section[self.block(s)], sensitivity, measures)
-        };
-        let maps: Result<Vec<MapResult>, Failure> = self.scenes.iter().enumerate().map(one).collect();
-        Ok(stacked(&maps?, self.problem.start.len()))
-    }
-
-    /// Where the coordinates of a scene stand among those of all.
-    pub(super) fn block(&self, scene: usize) -> std::ops::Range<usize> {
-        let d = self.problem.start.len();
-        scene * d..(scene + 1) * d
-    }
-
-    fn request_one(
-        &self,
-        parameters: &[f64],
-        section: &[f64],
-        sensitivity: Sensitivity<'_>,
-        measures: bool,
-    ) -> Result<MapResult, Failure> {
-        self.worked.fetch_add(self.problem.period, Ordering::Relaxed);
-        let outcome = self.problem.map.evaluate(&MapRequest {
-            coordinates: section,
-            parameters,
-            memory: &self.problem.memory,
-            period: self.problem.period,
-            sensitivity,
-            measures,
-            accuracy: self.problem.settings.accuracy,
-        })?;
-        match outcome {
-            MapOutcome::Stopped(stop) => Err(Failure::Stopped(stop)),
-            MapOutcome::Completed(map) => {
-                let finite = map.coordinates.iter().chain(map.jacobian.iter()).all(|x| x.is_finite());
-                if finite { Ok(*map) } else { Err(Failure::NotFinite("the return map".to_owned())) }
-            }
-        }
-    }
-
-    /// The plan of the map at parameters and coordinates of a scene, if there is one for a single map.
-    pub(super) fn plan(&self, parameters: &[f64], section: &[f64]) -> Result<Option<Plan>, Failure> {
-        let (_, plan) = self.problem.map.plan(&MapRequest {
-            coordinates: section,
-            parameters,
-            memory: &self.problem.memory,
-            period: self.problem.period,
-            sensitivity: Sensitivity::Coordinates,
-            measures: false,
-            accuracy: self.problem.settings.accuracy,
-        })?;
-        Ok(plan)
-    }
-
     /// All values at u.
     pub(super) fn evaluate(&self, u: &DVector<f64>) -> Result<Point, Failure> {
         let parameters = self.variables.parameters(u.as_slice(), &self.base);
         let section = self.variables.section(u.as_slice());
-        let map = self.map(&parameters, &section)?;
-        self.at(u, (parameters, section), map, &self.groups())
+        let image = self.image(&parameters, &section)?;
+        self.at(u, (parameters, section), image, &self.groups())
     }
 
     /// All values at u, whose map is known, with the Jury rows of the factors that belong to groups near here.
@@ -316,25 +259,25 @@ impl<'a> Program<'a> {
         &self,
         u: &DVector<f64>,
         (parameters, section): (Vec<f64>, Vec<f64>),
-        map: MapResult,
+        (map, candidates): (MapResult, Vec<Vec<Candidate>>),
         near: &[Groups],
     ) -> Result<Point, Failure> {
-        let mut groups = Vec::new();
+        let (mut groups, mut places) = (Vec::new(), Vec::new());
         let f = self.sign() * self.objective(u, &map, &parameters)? / self.objective_scale;
         let h = DVector::from_fn(section.len(), |i, _| (map.coordinates[i] - section[i]) / self.variables.nominal[i]);
         let mut c = Vec::with_capacity(self.rows.len());
         for (row, &scene) in self.rows.iter().zip(&self.row_scenes) {
+            places.resize(c.len(), None);
             match *row {
-                Row::Worst => c.push(self.shortfall(scene, u, &map, &parameters)?),
-                Row::Margin(i) => {
-                    let constraint = &self.problem.constraints[i];
-                    if let ConstraintKind::Margin { margin, scale } = &constraint.kind {
-                        c.push(
-                            self.value(&constraint.name, margin.as_ref(), (scene, &map), &parameters)?.value / scale,
-                        );
-                    }
-                }
                 // All rows of a block at once, when its first comes.
+                Row::Worst(0) | Row::Margin(_, 0) => {
+                    let pieces = self.block_pieces(*row, scene, (&map, &candidates), &parameters)?;
+                    let first = c.len();
+                    c.extend(pieces.iter().map(|piece| self.piece_row(*row, piece, u)));
+                    places.extend(pieces.iter().map(Piece::place));
+                    c.resize(first + slots_of(self.split), NO_ROW);
+                }
+                Row::Worst(_) | Row::Margin(..) => {}
                 Row::Jury(of, 0) => {
                     let radius = self.radius(of, u, (scene, &map), &parameters)?.value;
                     let p = self.characteristic(of, scene, &map).coefficients;
@@ -352,7 +295,8 @@ impl<'a> Program<'a> {
                 Row::Jury(..) => {}
             }
         }
-        Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c), groups })
+        places.resize(c.len(), None);
+        Ok(Point { u: u.clone(), parameters, section, map, f, h, c: DVector::from_vec(c), groups, candidates, places })
     }
 
     /// Objective in SI units.

@@ -6,12 +6,13 @@
 //! was reached of that one.
 
 use super::gait::{self, NoGait, Start};
+use super::pieces;
 use super::problem::{Problem, ProblemError};
-use super::program::{Failure, Program};
-use super::search::{End, Ended, search};
+use super::program::Failure;
+use super::scene::Scene;
+use super::search::{End, Ended};
 use super::standing::{Standing, standing};
 use super::task::{Goal, Task};
-use super::verdict;
 
 /// What a push may lose of the constraints that it keeps, in units of their scales.
 const SLACK: f64 = 1e-6;
@@ -115,9 +116,8 @@ pub(super) fn push(
 }
 
 fn pushing(problem: &Problem<'_>, task: Task, from: &Start) -> Result<Ended, Failure> {
-    let program = Program::new(problem, task, &from.parameters, &from.section)?;
-    let point = verdict::starting_point(&program, &from.parameters, &from.section)?;
-    search(&program, point)
+    let from = (from.parameters.as_slice(), from.section.as_slice());
+    Ok(pieces::searched(problem, &task, &[Scene::default()], from)?.1)
 }
 
 /// The values at a gait; `None` where there are none.

@@ -16,10 +16,12 @@ mod restore;
 mod scenarios;
 
 use super::gait::{self, NoGait, Start};
+use super::message;
+use super::pieces;
 use super::problem::{Problem, ProblemError};
 use super::program::{Failure, Program};
 use super::scene::Scene;
-use super::search::{End, Ended, search};
+use super::search::{End, Ended};
 use super::solution::{Solution, Status};
 use super::task::Task;
 use super::verdict;
@@ -69,12 +71,22 @@ pub struct Exception {
     pub what: String,
 }
 
+/// A machine to which the gait of no design could be followed that is best without uncertainty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lost {
+    /// Its values of the uncertain parameters, SI units, in their order.
+    pub values: Vec<f64>,
+    /// In words, why.
+    pub why: String,
+}
+
 /// The result of [`solve_robust`].
 #[derive(Clone, Debug)]
 pub struct RobustSolution {
     /// The optimum. Its objective is the worst over all scenarios; section, multipliers and measures are those of the scenario
     /// that has it (of the largest spectral radius where that is the objective), and so are its uncertain parameters. Prices
-    /// are the sums over all scenarios. Without an optimum, what the search ended with.
+    /// are the sums over all scenarios. Without an optimum, what the search ended with; where there was no search, no more than the
+    /// design that is best without uncertainty.
     pub solution: Solution,
     /// All scenarios; empty where no gait could be followed to each of them.
     pub scenarios: Vec<Scenario>,
@@ -88,6 +100,8 @@ pub struct RobustSolution {
     pub exceptions: Vec<Exception>,
     /// Where no design was found with which all constraints hold for all machines: the one in the way.
     pub in_the_way: Option<InTheWay>,
+    /// Where there was nothing to search from: the machine without a gait.
+    pub lost: Option<Lost>,
 }
 
 /// Solves a problem for all machines of the box that `uncertain` spans. Deterministic.
@@ -111,10 +125,7 @@ pub fn solve_robust(mut problem: Problem<'_>, uncertain: &[Uncertain]) -> Result
     let best_nominal = nominal.objective;
     let found = match robust.best(&nominal, &scenes)? {
         Ok(found) => robust.checked(found, &nominal)?,
-        Err(message) => {
-            let none = Solution { status: Status::NoGait, active: Vec::new(), ..nominal };
-            return Ok(RobustSolution { nominal: best_nominal, ..without(none, |_| message.clone()) });
-        }
+        Err(none) => robust.nowhere(&nominal, Status::NoGait, none),
     };
     Ok(RobustSolution { nominal: best_nominal, ..found })
 }
@@ -131,7 +142,14 @@ fn without(mut solution: Solution, message: impl Fn(&str) -> String) -> RobustSo
         rounds: 0,
         exceptions: Vec::new(),
         in_the_way: None,
+        lost: None,
     }
+}
+
+/// Why there is no search: a machine that was lost on the way to it, or in words what else.
+enum NoSearch {
+    Lost(Lost),
+    Other(String),
 }
 
 /// A robust problem that is being solved.
@@ -150,38 +168,35 @@ struct Found<'p> {
 }
 
 impl<'p> Robust<'p> {
-    /// The best end of searches from the optima of the nominal machine; in words, why there is none.
-    fn best(&self, nominal: &Solution, scenes: &[Scene]) -> Result<Result<Found<'p>, String>, ProblemError> {
+    /// The best end of searches from the optima of the nominal machine, or why there is none.
+    fn best(&self, nominal: &Solution, scenes: &[Scene]) -> Result<Result<Found<'p>, NoSearch>, ProblemError> {
         let mut best: Option<Found<'p>> = None;
-        let mut failure = String::new();
+        let mut failure = NoSearch::Other(String::new());
         for optimum in nominal.optima.iter().take(MOST_BEGINNINGS) {
             let start = Start { parameters: optimum.parameters.clone(), section: optimum.section.clone() };
             match self.from(scenes, &start)? {
                 Ok(found) if best.as_ref().is_none_or(|best| better(&found, best)) => best = Some(found),
                 Ok(_) => {}
-                Err(words) => failure = words,
+                Err(none) => failure = none,
             }
         }
         Ok(best.ok_or(failure))
     }
 
     /// The search from a gait of the nominal machine.
-    fn from(&self, scenes: &[Scene], nominal: &Start) -> Result<Result<Found<'p>, String>, ProblemError> {
+    fn from(&self, scenes: &[Scene], nominal: &Start) -> Result<Result<Found<'p>, NoSearch>, ProblemError> {
         let mut section = Vec::new();
         for scene in scenes {
             match gait::follow(self.problem, nominal, &scene.parameters(&nominal.parameters)) {
                 Ok(start) => section.extend(start.section),
                 Err(NoGait::Wrong(error)) => return Err(error),
                 Err(failure) => {
-                    let at = scenarios::words(self.problem, self.uncertain, &self.values(scene));
-                    return Ok(Err(format!(
-                        "the gait cannot be followed to {at}: {failure}; narrow the uncertain ranges, or give a first \
-                         guess that leads to a gait everywhere in them"
-                    )));
+                    return Ok(Err(NoSearch::Lost(Lost { values: self.values(scene), why: failure.to_string() })));
                 }
             }
         }
-        self.solved(scenes, &Design { parameters: nominal.parameters.clone(), section })
+        let design = Design { parameters: nominal.parameters.clone(), section };
+        Ok(self.solved(scenes, &design)?.map_err(NoSearch::Other))
     }
 
     /// The search from a design; where it ends without an optimum, once more from one with which all constraints hold, or with
@@ -214,9 +229,7 @@ impl<'p> Robust<'p> {
     ) -> Result<Result<Found<'p>, String>, ProblemError> {
         let run = || {
             let task = Task::asked(self.problem);
-            let program = Program::with_scenes(self.problem, task, scenes.to_vec(), parameters, section)?;
-            let point = verdict::starting_point(&program, parameters, section)?;
-            let ended = search(&program, point)?;
+            let (program, ended) = pieces::searched(self.problem, &task, scenes, (parameters, section))?;
             Ok(Found { program, ended, in_the_way: None })
         };
         match run() {
@@ -253,10 +266,7 @@ impl<'p> Robust<'p> {
             let parameters = found.ended.point.parameters.clone();
             match self.solved(&scenes, &Design { parameters, section })? {
                 Ok(next) => found = next,
-                Err(words) => {
-                    let none = Solution { status: Status::Stalled, ..nominal.clone() };
-                    return Ok(without(none, |_| words.clone()));
-                }
+                Err(words) => return Ok(self.nowhere(nominal, Status::Stalled, NoSearch::Other(words))),
             }
         }
     }
@@ -282,7 +292,24 @@ impl<'p> Robust<'p> {
             rounds,
             exceptions,
             in_the_way: found.in_the_way.clone(),
+            lost: None,
         }
+    }
+
+    /// Without a search: the design that is best without uncertainty, and nothing of how that does, which would be taken for the
+    /// worst case.
+    fn nowhere(&self, nominal: &Solution, status: Status, why: NoSearch) -> RobustSolution {
+        let (message, lost) = match why {
+            NoSearch::Other(words) => (words, None),
+            NoSearch::Lost(lost) => {
+                let at = scenarios::words(self.problem, self.uncertain, &lost.values);
+                (message::lost(&at, &lost.why), Some(lost))
+            }
+        };
+        let (parameters, section) = (nominal.parameters.clone(), nominal.section.clone());
+        let mut solution = verdict::without_values(status, message, parameters, section).solution;
+        solution.notes.clone_from(&nominal.notes);
+        RobustSolution { lost, ..without(solution, str::to_owned) }
     }
 
     /// The message of a worst case that is not the worst.

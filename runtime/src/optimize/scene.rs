@@ -1,7 +1,7 @@
 //! Scenes: the machines that one design has to serve. Each is the model with some parameters at other values, and has its own
 //! gait; what the scenes have in common are the varied parameters.
 
-use super::program::{Failure, Point, Program};
+use super::program::{Failure, Program};
 use crate::return_map::{MapResult, Statistics};
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
@@ -34,7 +34,7 @@ impl Scene {
 
 /// The maps of all scenes (at least one) as one: coordinates and measures one after the other, the Jacobian with a block for each
 /// scene and common columns for the parameters. `d` is the number of coordinates of a scene. What belongs to a single run,
-/// as duration and events, is that of the first scene.
+/// as events, is that of the first scene; the duration is the longest.
 pub(super) fn stacked(maps: &[MapResult], d: usize) -> MapResult {
     let parameters = maps.iter().map(|map| map.jacobian.ncols().saturating_sub(d)).min().unwrap_or(0);
     let own = maps.iter().map(|map| map.jacobian.ncols().min(d)).min().unwrap_or(0);
@@ -69,42 +69,31 @@ pub(super) fn stacked(maps: &[MapResult], d: usize) -> MapResult {
         measures: joined(|map| &map.measures),
         measures_jacobian: jacobian(|map| &map.measures_jacobian),
         statistics: work,
+        duration: maps.iter().map(|map| map.duration).fold(0.0, f64::max),
         warnings: maps.iter().flat_map(|map| map.warnings.iter().copied()).collect(),
         ..maps[0].clone()
     }
 }
 
 impl Program<'_> {
-    /// Whether what is optimised is the worst of several scenes, through an epigraph variable t: that of each scene is no
+    /// Whether what is optimised is the worst of several scenes or pieces, through an epigraph variable t: that of each is no
     /// worse than t. (The spectral radius has an epigraph of its own.)
     pub(super) fn worst(&self) -> bool {
-        self.scenes.len() > 1 && !self.task.minimises_radius(self.problem)
+        (self.scenes.len() > 1 || self.split) && !self.task.minimises_radius(self.problem)
     }
 
-    /// By how much a scene's objective is better than t, in units of t.
-    pub(super) fn shortfall(
-        &self,
-        scene: usize,
-        u: &DVector<f64>,
-        map: &MapResult,
-        parameters: &[f64],
-    ) -> Result<f64, Failure> {
-        let (Some((what, e)), Some(at)) = (self.target(), self.variables.epigraph_at()) else {
-            return Ok(0.0);
-        };
-        let value = self.value(what, e, (scene, map), parameters)?.value;
-        Ok(-self.sign() * (value / self.variables.unit(at) - u[at]))
+    /// By how much a value of the objective is better than t, in units of t.
+    pub(super) fn shortfall(&self, value: f64, u: &DVector<f64>) -> f64 {
+        let Some(at) = self.variables.epigraph_at() else { return 0.0 };
+        -self.sign() * (value / self.variables.unit(at) - u[at])
     }
 
-    /// Its gradient.
-    pub(super) fn shortfall_gradient(&self, scene: usize, point: &Point) -> Result<DVector<f64>, Failure> {
-        let (Some((what, e)), Some(at)) = (self.target(), self.variables.epigraph_at()) else {
-            return Ok(DVector::zeros(self.len()));
-        };
-        let value = self.value(what, e, (scene, &point.map), &point.parameters)?;
-        let mut gradient = self.total(&value, scene, point) / self.variables.unit(at);
+    /// Its gradient, from that of the value.
+    pub(super) fn shortfall_gradient(&self, of_value: DVector<f64>) -> DVector<f64> {
+        let Some(at) = self.variables.epigraph_at() else { return of_value };
+        let mut gradient = of_value / self.variables.unit(at);
         gradient[at] -= 1.0;
-        Ok(gradient * -self.sign())
+        gradient * -self.sign()
     }
 
     /// Unit and first value of t: the size of the objective's derivatives, and the worst value at the start.
@@ -118,8 +107,10 @@ impl Program<'_> {
         let at = self.len() - 1;
         let (mut size, mut worst) = (0.0, f64::INFINITY);
         for scene in 0..self.scenes.len() {
-            let value = self.shortfall(scene, &point.u, &point.map, &point.parameters)?;
-            let slope = self.shortfall_gradient(scene, &point)?.rows(0, at).amax();
+            let Some((what, e)) = self.target() else { break };
+            let value = self.value(what, e, (scene, &point.map), &point.parameters)?;
+            let slope = self.shortfall_gradient(self.total(&value, scene, &point)).rows(0, at).amax();
+            let value = self.shortfall(value.value, &point.u);
             size = f64::max(size, slope.max(1e-3 * value.abs()));
             worst = f64::min(worst, value);
         }

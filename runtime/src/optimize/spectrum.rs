@@ -9,6 +9,7 @@ use crate::orbit::multipliers;
 use crate::return_map::MapResult;
 use nalgebra::{DMatrix, DVector};
 use std::sync::PoisonError;
+use std::sync::atomic::Ordering;
 
 impl Program<'_> {
     /// The multipliers of a scene in groups, those nearby if there are any.
@@ -31,8 +32,11 @@ impl Program<'_> {
         self.groups.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// From here on the Jury rows are those of the factors of this point; without a point, of the whole polynomials.
+    /// From here on the Jury rows are those of the factors of this point, and its gait is the one that is followed; without a
+    /// point, those of the whole polynomials, and none.
     pub(super) fn adopt(&self, point: Option<&Point>) {
+        let duration = point.map_or(f64::INFINITY, |point| point.map.duration);
+        self.followed.store(duration.to_bits(), Ordering::Relaxed);
         let groups = point.map_or_else(Vec::new, |point| point.groups.clone());
         *self.groups.lock().unwrap_or_else(PoisonError::into_inner) = groups;
     }
@@ -42,7 +46,7 @@ impl Program<'_> {
         let groups: Vec<Groups> = point.groups.iter().map(Groups::settled).collect();
         let others = groups != point.groups;
         let point = match others {
-            true => self.at(&point.u, (point.parameters, point.section), point.map, &groups)?,
+            true => self.at(&point.u, (point.parameters, point.section), (point.map, point.candidates), &groups)?,
             false => point,
         };
         self.adopt(Some(&point));

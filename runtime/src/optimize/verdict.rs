@@ -61,7 +61,7 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         notes: Vec::new(),
         objective: match problem.objective {
             Objective::SpectralRadius => spectral_radius,
-            Objective::Expression(_) => program.sign() * program.objective_scale * point.f,
+            Objective::Expression(_) => program.worst_value(point),
         },
         parameters: point.parameters.clone(),
         section: point.section.clone(),
@@ -79,6 +79,7 @@ pub(super) fn verdict(program: &Program<'_>, mut ended: Ended) -> Result<Verdict
         conflict: None,
         confirmation: None,
     };
+    solution.notes.extend(program.kinks(&ended));
     judge(program, &ended, &mut solution);
     Ok(Verdict { violation: infeasibility(point), solution, nominal: program.variables.nominal.clone() })
 }
@@ -279,7 +280,7 @@ pub(super) fn active(program: &Program<'_>, ended: &Ended) -> Vec<Active> {
 /// All Jury rows of a bound r move with r: the price of r is the sum of their multipliers times their slopes in r.
 fn constraint_price(program: &Program<'_>, ended: &Ended, i: usize, constraint: &Constraint) -> (f64, f64) {
     let rows = program.rows.iter().zip(ended.multipliers.inequality.iter()).zip(&ended.lin.radius);
-    let own = rows.filter(|((row, _), _)| matches!(row, Row::Margin(of) | Row::Jury(Some(of), _) if *of == i));
+    let own = rows.filter(|((row, _), _)| matches!(row, Row::Margin(of, _) | Row::Jury(Some(of), _) if *of == i));
     match &constraint.kind {
         ConstraintKind::Margin { scale, .. } => {
             let lambda: f64 = own.map(|((_, lambda), _)| *lambda).sum();

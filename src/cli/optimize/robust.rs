@@ -90,13 +90,27 @@ pub(super) fn stability_bounds(
 
 /// The message of a robust problem without a design for all machines; `None` where nothing is known to be in the way.
 pub(super) fn message(spec: &Model, problem: &Problem, found: &RobustSolution) -> Option<String> {
+    let machine = |values: &[f64]| -> String {
+        let one = |(u, value): (&ir::Uncertain, &f64)| {
+            let parameter = &spec.parameters[u.parameter];
+            format!("{} = {}", parameter.name, format_quantity(*value, &parameter.unit))
+        };
+        problem.robust.iter().zip(values).map(one).collect::<Vec<_>>().join(", ")
+    };
+    if let Some(lost) = &found.lost {
+        let report = Report { spec, problem, solution: &found.solution, robust: None };
+        return Some(format!(
+            "the best design without uncertainty has {} = {}, but its gait cannot be followed to the machine with {}: {}; narrow the \
+             uncertain ranges, or start from values and a first guess that lead to a gait everywhere in them",
+            problem.objective_text,
+            report.objective_quantity(found.nominal),
+            machine(&lost.values),
+            lost.why,
+        ));
+    }
     let in_the_way = found.in_the_way.as_ref()?;
     let report = Report { spec, problem, solution: &found.solution, robust: None };
     let text = |i: &usize| format!("`{}`", problem.constraints[*i].text);
-    let machine = problem.robust.iter().zip(&in_the_way.values).map(|(u, value)| {
-        let parameter = &spec.parameters[u.parameter];
-        format!("{} = {}", parameter.name, format_quantity(*value, &parameter.unit))
-    });
     let kept = match in_the_way.limits.iter().map(text).collect::<Vec<_>>() {
         none if none.is_empty() => String::new(),
         limits => format!(" where {} hold{} for all", listed(&limits), if limits.len() == 1 { "s" } else { "" }),
@@ -106,7 +120,7 @@ pub(super) fn message(spec: &Model, problem: &Problem, found: &RobustSolution) -
          it, narrow the uncertain ranges, or widen the ranges",
         text(&in_the_way.reached.constraint),
         listed(&report.ranges()),
-        machine.collect::<Vec<_>>().join(", "),
+        machine(&in_the_way.values),
         report.best_text(&in_the_way.reached),
     ))
 }
@@ -152,6 +166,7 @@ impl Report<'_> {
             "rounds": found.rounds,
             "exceptions": found.exceptions.iter().map(exception).collect::<Vec<_>>(),
             "in_the_way": found.in_the_way.as_ref().map(in_the_way),
+            "lost": found.lost.as_ref().map(|lost| json!({ "parameters": values(&lost.values), "why": lost.why })),
         })
     }
 

@@ -117,6 +117,7 @@ pub(super) fn judged(robust: &Robust<'_>, found: &mut Found<'_>) -> Result<Solut
             return Ok(solution);
         }
     }
+    solution.notes.extend(program.kinks(ended));
     solution.notes.extend(verdict::deadbeat(program, &ended.point, &solution));
     solution.message = match &ended.refused {
         Some(stop) if solution.status == Status::Stalled => message::refused(&solution, stop, &detail),
@@ -210,9 +211,9 @@ pub(super) fn scenarios(robust: &Robust<'_>, found: &Found<'_>) -> Vec<Scenario>
         let rows = program.rows.iter().zip(&program.row_scenes).zip(ended.multipliers.inequality.iter());
         for ((row, _), _) in rows.filter(|((_, of), lambda)| converged && **of == s && **lambda > least) {
             match *row {
-                Row::Worst | Row::Jury(None, _) => worst = true,
-                Row::Margin(i) | Row::Jury(Some(i), _) if !limits.contains(&i) => limits.push(i),
-                Row::Margin(_) | Row::Jury(..) => {}
+                Row::Worst(_) | Row::Jury(None, _) => worst = true,
+                Row::Margin(i, _) | Row::Jury(Some(i), _) if !limits.contains(&i) => limits.push(i),
+                Row::Margin(..) | Row::Jury(..) => {}
             }
         }
         Scenario {

@@ -6,13 +6,13 @@
 
 use super::super::conflict::Reached;
 use super::super::gait::{self, NoGait, Start};
+use super::super::pieces;
 use super::super::problem::ProblemError;
-use super::super::program::{Failure, Program};
+use super::super::program::Failure;
 use super::super::scene::Scene;
-use super::super::search::{Ended, search};
+use super::super::search::Ended;
 use super::super::standing::{Standing, standing};
 use super::super::task::{Goal, Task};
-use super::super::verdict;
 use super::Robust;
 
 /// What a push may lose of the constraints that it keeps, in units of their scales.
@@ -109,9 +109,7 @@ impl Robust<'_> {
 
     fn pushed(&self, scenes: &[Scene], task: Task, from: &Design) -> Result<Ended, Failure> {
         let Design { parameters, section } = from;
-        let program = Program::with_scenes(self.problem, task, scenes.to_vec(), parameters, section)?;
-        let point = verdict::starting_point(&program, parameters, section)?;
-        search(&program, point)
+        Ok(pieces::searched(self.problem, &task, scenes, (parameters, section))?.1)
     }
 
     /// Gaits and values of all scenes with a design; `None` where one is missing.

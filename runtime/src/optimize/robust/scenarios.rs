@@ -1,5 +1,6 @@
 //! The scenarios of a box of uncertain parameters, and what a box has to be.
 
+use super::super::message::quantity;
 use super::super::problem::{Bound, ConstraintKind, Problem, ProblemError};
 use super::super::scene::Scene;
 use super::Uncertain;
@@ -78,9 +79,8 @@ pub(super) fn corners(problem: &Problem<'_>, uncertain: &[Uncertain]) -> Vec<Sce
 pub(super) fn words(problem: &Problem<'_>, uncertain: &[Uncertain], values: &[f64]) -> String {
     let known = problem.map.info().parameters;
     let one = |(u, value): (&Uncertain, &f64)| {
-        let (name, si) = known.get(u.parameter).map_or(("?", "1"), |quantity| (quantity.name, quantity.si));
-        let unit = if si == "1" { String::new() } else { format!(" {si}") };
-        format!("`{name}` = {value:.6}{unit}")
+        let name = known.get(u.parameter).map_or("?", |quantity| quantity.name);
+        format!("`{name}` = {}", quantity(problem, u.parameter, *value))
     };
     uncertain.iter().zip(values).map(one).collect::<Vec<_>>().join(", ")
 }

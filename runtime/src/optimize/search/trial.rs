@@ -1,6 +1,7 @@
 //! Trying a step: back to the gaits, correction of second order, acceptance, and the radius for the next one.
 
 use super::super::kkt::lagrangian_gradient;
+use super::super::pieces::alike;
 use super::super::problem::ProblemError;
 use super::super::program::{Failure, Point};
 use super::super::subproblem::{Multipliers, Step};
@@ -140,7 +141,7 @@ impl Search<'_, '_> {
             }
         };
         // With other rows the multipliers are those of others.
-        if !others {
+        if !others && alike(&self.point, &point) {
             let change = lagrangian_gradient(&lin, multipliers) - lagrangian_gradient(&self.lin, multipliers);
             self.model.update(&(&point.u - &self.point.u), &change);
         }
