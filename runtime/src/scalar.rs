@@ -7,6 +7,20 @@ pub use lanes::{LaneMask, Lanes};
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// An array, entry by entry from their places. It does what `core::array::from_fn` does, which costs the compiler four functions for each
+/// closure, and so four for each model, method and width; `blank` may be any value.
+#[inline(always)]
+pub(crate) fn filled<T: Copy, const N: usize>(blank: T, mut entry: impl FnMut(usize) -> T) -> [T; N] {
+    let mut all = [blank; N];
+    let mut i = 0;
+    // Not a range: that would be five more functions for the compiler to inline, in more than a thousand places.
+    while i < N {
+        all[i] = entry(i);
+        i += 1;
+    }
+    all
+}
+
 /// A real number (or several, lane by lane). Generated code uses nothing else.
 pub trait Scalar:
     Copy

@@ -2,6 +2,7 @@
 
 use super::gauss::{Gauss, S};
 use crate::model::{Env, Model};
+use crate::scalar::filled;
 use nalgebra::{DMatrix, DVector};
 
 /// Newton corrections of a step.
@@ -45,7 +46,7 @@ impl<const N: usize, const P: usize> Frame<'_, N, P> {
                 }
             }
             if last {
-                let x = core::array::from_fn(|n| self.x[n] + h * (0..S).map(|i| gauss.b[i] * rates[i][n]).sum::<f64>());
+                let x = filled(0.0, |n| self.x[n] + h * (0..S).map(|i| gauss.b[i] * rates[i][n]).sum::<f64>());
                 return x.iter().all(|v| v.is_finite()).then_some(x);
             }
             last = largest <= SMALL;
@@ -63,7 +64,7 @@ impl<const N: usize, const P: usize> Frame<'_, N, P> {
         let mut matrix = DMatrix::zeros(S * N, S * N);
         let mut residual = DVector::zeros(S * N);
         for i in 0..S {
-            let x = core::array::from_fn(|n| self.x[n] + h * (0..S).map(|j| gauss.a[i][j] * rates[j][n]).sum::<f64>());
+            let x = filled(0.0, |n| self.x[n] + h * (0..S).map(|j| gauss.a[i][j] * rates[j][n]).sum::<f64>());
             let at = M::residual_linearised(self.mode, &x, &rates[i], &self.env(gauss.c[i] * h));
             for row in 0..N {
                 residual[i * N + row] = at.value[row];

@@ -4,6 +4,7 @@
 //! there d max = o_x v + o_p w + o_t s. At the ends of a segment the whole variation counts, with the event's time.
 
 use crate::model::{Env, Functional, Model, ModelInfo, RateGradient};
+use crate::scalar::filled;
 use crate::sensitivity::dot;
 
 /// One column of variations at a point: of state, parameters, tau and t.
@@ -161,7 +162,7 @@ impl<const C: usize> Functionals<C> {
 
 fn quotient<const C: usize>(a: Varied<C>, b: Varied<C>) -> Varied<C> {
     let value = a.value / b.value;
-    Varied { value, gradient: core::array::from_fn(|c| (a.gradient[c] - value * b.gradient[c]) / b.value) }
+    Varied { value, gradient: filled(0.0, |c| (a.gradient[c] - value * b.gradient[c]) / b.value) }
 }
 
 /// An observable with its derivatives along columns given by `variation`.
@@ -173,5 +174,5 @@ pub(crate) fn observe<M: Model<N, P, Q>, const N: usize, const P: usize, const Q
     gradient: impl Fn(&RateGradient<f64, N, P>, usize) -> f64,
 ) -> Varied<C> {
     let g = M::observable_gradient(index, mode, x, k, env);
-    Varied { value: g.value, gradient: core::array::from_fn(|c| gradient(&g, c)) }
+    Varied { value: g.value, gradient: filled(0.0, |c| gradient(&g, c)) }
 }

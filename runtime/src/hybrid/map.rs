@@ -9,6 +9,7 @@ use crate::event::{Found, Side, Watched, read, selectors};
 use crate::integrate::{Carried, Method};
 use crate::model::{Model, Section};
 use crate::return_map::{MapRequest, StopReason};
+use crate::scalar::filled;
 use crate::sensitivity::through;
 
 /// Section coordinates, the first d of N, and their variations.
@@ -241,7 +242,7 @@ where
         let y = &self.step.start;
         let integral = |k: usize| {
             let value = y.q.get(k).copied().unwrap_or(f64::NAN);
-            Varied { value, gradient: core::array::from_fn(|c| y.dq[c].get(k).copied().unwrap_or(f64::NAN)) }
+            Varied { value, gradient: filled(0.0, |c| y.dq[c].get(k).copied().unwrap_or(f64::NAN)) }
         };
         self.functionals.finish(M::INFO, integral, self.duration())
     }

@@ -6,7 +6,7 @@ use crate::replay::{
     Checks, Images, Piece, PieceEnd, Plan, Points, SecondOrder, run_piece, second_order as along_pairs, side_by_side,
 };
 use crate::return_map::{MapOutcome, MapRequest, Method, RequestError, ReturnMap};
-use crate::scalar::{Lanes, Real};
+use crate::scalar::{Lanes, Real, filled};
 
 /// So many maps take longer one by one than in lanes, some of which stay idle.
 const WORTH_LANES: usize = 3;
@@ -150,7 +150,7 @@ pub(super) fn second_order<M: Model<N, P, Q>, const N: usize, const P: usize, co
         return Ok(None);
     }
     let rows = point.rows(M::INFO.coordinates.len(), P);
-    let p: [f64; P] = core::array::from_fn(|i| rows.parameter(0, i));
+    let p: [f64; P] = filled(0.0, |i| rows.parameter(0, i));
     Ok(Some(along_pairs::<M, N, P, Q>(plan, section, point.coordinates, &p, chosen)))
 }
 

@@ -9,6 +9,7 @@ use super::run::Run;
 use crate::event::value;
 use crate::integrate::{Carried, Frame, Method, Point, state_step};
 use crate::model::Model;
+use crate::scalar::filled;
 
 /// Places inside a step, as fractions of it; uneven, so that a periodic function does not hide behind them.
 pub(crate) const PLACES: [f64; 4] = [0.13, 0.37, 0.61, 0.87];
@@ -33,7 +34,7 @@ where
             return self.surfaces_resolved(&inside);
         }
         let points = self.points_inside();
-        self.surfaces_resolved(&points.map(|point| point.x)) && self.extrema_resolved(&points)
+        self.surfaces_resolved(&filled([0.0; N], |i| points[i].x)) && self.extrema_resolved(&points)
     }
 
     /// States at [`PLACES`].
@@ -41,7 +42,7 @@ where
     fn states_inside(&mut self) -> [[f64; N]; PLACES.len()] {
         let step = state_step::<X, N, W, C>(&self.step);
         let dense = X::dense::<M, N, P, Q>(self.segment.frame(), &step, &mut self.statistics.evaluations);
-        PLACES.map(|u| X::state(&dense, u))
+        filled([0.0; N], |i| X::state(&dense, PLACES[i]))
     }
 
     /// States and rates at [`PLACES`].
@@ -49,14 +50,15 @@ where
     fn points_inside(&mut self) -> [Point<N>; PLACES.len()] {
         let (frame, step) = (self.segment.frame(), state_step::<X, N, W, C>(&self.step));
         let dense = X::dense::<M, N, P, Q>(frame, &step, &mut self.statistics.evaluations);
-        PLACES.map(|u| X::point::<M, N, P, Q>(frame, &step, &dense, u))
+        let blank = Point { x: [0.0; N], k: [0.0; N], bend: [0.0; N] };
+        filled(blank, |i| X::point::<M, N, P, Q>(frame, &step, &dense, PLACES[i]))
     }
 
     fn surfaces_resolved(&mut self, inside: &[[f64; N]; PLACES.len()]) -> bool {
         let (frame, tau, h): (Frame<'_, P>, f64, f64) = (self.segment.frame(), self.step.tau, self.step.h);
         for w in &mut self.watched {
             let at = |i: usize| value::<M, N, P, Q>(w.surface, &inside[i], &frame.env(tau + PLACES[i] * h));
-            let values: [f64; PLACES.len()] = core::array::from_fn(at);
+            let values: [f64; PLACES.len()] = filled(0.0, at);
             let ends = Ends { start: (w.start.value, h * w.start.rate), end: (w.end.value, h * w.end.rate) };
             let noise = w.start.rounding.max(w.end.rounding);
             if !ends.explain(&values, noise) && !ends.far_from_zero(&values) {
@@ -79,7 +81,7 @@ where
                 let Point { x, k, .. } = &inside[i];
                 M::observable(o, frame.mode, x, k, &frame.env(tau + PLACES[i] * h))
             };
-            let values: [f64; PLACES.len()] = core::array::from_fn(value);
+            let values: [f64; PLACES.len()] = filled(0.0, value);
             let slope = |at: &Point<N>, tau: f64| {
                 let s = slope::<M, N, P, Q>(o, frame, tau, at);
                 ((s.value, h * s.rate), s.rounding)

@@ -7,6 +7,7 @@ use super::run::Run;
 use crate::integrate::{Bare, Carried, Frame, Held, Method, Purpose, StateStep, state_step};
 use crate::model::Model;
 use crate::return_map::StopReason;
+use crate::scalar::filled;
 use crate::trajectory::trace::Trace;
 
 impl<X, M, R, const N: usize, const P: usize, const Q: usize, const W: usize, const C: usize>
@@ -115,7 +116,7 @@ fn sample<X: Method, M: Model<N, P, Q>, const N: usize, const P: usize, const Q:
         let (x, mut k) = solved.unwrap_or_else(|| {
             let at = X::point::<M, N, P, Q>(frame, step, &dense, h / step.h);
             // The rate at the start is known better than the polynomial's, which knows how it changes.
-            (at.x, core::array::from_fn(|i| step.start_rates.x[i] + (at.k[i] - first[i])))
+            (at.x, filled(0.0, |i| step.start_rates.x[i] + (at.k[i] - first[i])))
         });
         if const { M::INFO.explicit } {
             k = M::flow(frame.mode, &x, &frame.env(step.tau + h));

@@ -7,6 +7,7 @@
 use super::frame::Held;
 use crate::model::{Directions, Env, Model};
 use crate::ode::Bundle;
+use crate::scalar::filled;
 use crate::sensitivity::Dual;
 
 /// Which of a model's functions make up the right-hand side; W is the number of integrals that are carried.
@@ -115,7 +116,7 @@ fn forced<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize, con
 ) -> [[f64; N]; C] {
     let all = M::residual_jacobian(held.frame.mode, x, k, &held.frame.env(tau));
     core::array::from_fn(|c| {
-        let mut sum = all.dt.map(|v| v * held.dstart[c]);
+        let mut sum = filled(0.0, |i| all.dt[i] * held.dstart[c]);
         for (column, w) in all.dp.iter().zip(&held.dp[c]) {
             // Most columns vary one parameter.
             if *w != 0.0 {
@@ -147,11 +148,11 @@ fn add_time_columns<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: 
     let env = Env {
         tau: constant(tau),
         t: Dual { value: frame.start + tau, derivative: [1.0] },
-        p: &frame.p.map(constant),
+        p: &filled(constant(0.0), |i| constant(frame.p[i])),
         memory: &memory,
         branch: frame.branch,
     };
-    let (flow, integrands) = M::integrated(frame.mode, &x.map(constant), &env);
+    let (flow, integrands) = M::integrated(frame.mode, &filled(constant(0.0), |i| constant(x[i])), &env);
     for c in 0..C {
         for i in 0..N {
             dx[c][i] += flow[i].derivative[0] * held.dstart[c];

@@ -5,6 +5,7 @@ use crate::model::Model;
 use crate::ode::explicit::{Dense, ERROR_ORDER, Stages, attempt, error, stage_times, stiffness};
 use crate::ode::{Bundle, Controller, Tolerance, first_step};
 use crate::return_map;
+use crate::scalar::filled;
 
 /// The explicit method.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +35,7 @@ impl Method for Explicit {
     fn state_only<const N: usize, const W: usize, const C: usize>(
         stages: &Stages<Bundle<N, W, C>>,
     ) -> Stages<Bundle<N, 0, 0>> {
-        core::array::from_fn(|s| Bundle { x: stages[s].x, q: [], dx: [], dq: [] })
+        filled(Bundle::ZERO, |s| Bundle { x: stages[s].x, q: [], dx: [], dq: [] })
     }
 
     fn expect<const N: usize, const W: usize, const C: usize>(

@@ -10,6 +10,7 @@ use crate::ode::radau::{
 };
 use crate::ode::{Bundle, Controller, OdeState, Tolerance};
 use crate::return_map;
+use crate::scalar::filled;
 use accuracy::{FACTOR, FACTOR_WITH_RATES};
 use solving::equation;
 
@@ -70,7 +71,7 @@ where
     }
 
     fn state_only<const N: usize, const W: usize, const C: usize>(stages: &Stages<N, W, C, S>) -> Stages<N, 0, 0, S> {
-        let k = core::array::from_fn(|s| Bundle { x: stages.k[s].x, q: [], dx: [], dq: [] });
+        let k = filled(Bundle::ZERO, |s| Bundle { x: stages.k[s].x, q: [], dx: [], dq: [] });
         Stages { k, polynomial: stages.polynomial }
     }
 
@@ -197,7 +198,7 @@ where
         for (i, stage) in step.stages.k.iter_mut().enumerate() {
             // The rate at the start is known better than the polynomial's, which knows how it changes.
             let here = t.values(u * t.c[i]);
-            let change = core::array::from_fn(|j| here[j] - at_start[j]);
+            let change = filled(0.0, |j| here[j] - at_start[j]);
             *stage = step.start_rates.advance(1.0, change, accepted.k.each_ref());
         }
         step.end_rates = step.stages.k[S - 1];
@@ -208,12 +209,7 @@ where
         step: &StateStep<Self, N>,
         _: &mut usize,
     ) -> Polynomial<N, S> {
-        Polynomial {
-            tau: step.tau,
-            h: step.h,
-            start: step.start.x,
-            rates: core::array::from_fn(|s| step.stages.k[s].x),
-        }
+        Polynomial { tau: step.tau, h: step.h, start: step.start.x, rates: filled([0.0; N], |s| step.stages.k[s].x) }
     }
 
     fn state<const N: usize>(dense: &Polynomial<N, S>, u: f64) -> [f64; N] {
@@ -231,8 +227,9 @@ where
     }
 
     fn bend<const N: usize, const W: usize, const C: usize>(step: &StepOf<Self, N, W, C>, u: f64) -> [f64; N] {
-        let k: Rates<N, S> = core::array::from_fn(|s| step.stages.k[s].x);
-        weighted(&Self::TABLEAU.slopes(u), &k).map(|v| v / step.h)
+        let k: Rates<N, S> = filled([0.0; N], |s| step.stages.k[s].x);
+        let sums = weighted(&Self::TABLEAU.slopes(u), &k);
+        filled(0.0, |i| sums[i] / step.h)
     }
 
     fn rate<M: Model<N, P, Q>, const N: usize, const P: usize, const Q: usize>(

@@ -3,7 +3,7 @@
 //! With x' = f(x) and I' = i(x), the columns v of variations obey v' = (df/dx) v + (df/dp) w and so on (the variational
 //! equations); all are advanced by the same linear combinations of stages.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, filled};
 
 /// N states, Q integrals and C columns of their variations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,11 +95,11 @@ impl<const N: usize, const Q: usize, const C: usize> Blocks for Bundle<N, Q, C> 
 
     #[inline(always)]
     fn blocks<const S: usize>(&self, others: [&Self; S], visit: &mut impl FnMut(&[f64], [&[f64]; S])) {
-        visit(&self.x, others.map(|o| o.x.as_slice()));
-        visit(&self.q, others.map(|o| o.q.as_slice()));
+        visit(&self.x, filled(&self.x[..], |s| &others[s].x[..]));
+        visit(&self.q, filled(&self.q[..], |s| &others[s].q[..]));
         for c in 0..C {
-            visit(&self.dx[c], others.map(|o| o.dx[c].as_slice()));
-            visit(&self.dq[c], others.map(|o| o.dq[c].as_slice()));
+            visit(&self.dx[c], filled(&self.x[..], |s| &others[s].dx[c][..]));
+            visit(&self.dq[c], filled(&self.q[..], |s| &others[s].dq[c][..]));
         }
     }
 }

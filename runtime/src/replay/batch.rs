@@ -5,6 +5,7 @@ use super::number::Number;
 use super::plan::Plan;
 use super::points::{Images, Rows};
 use crate::model::{Model, Section};
+use crate::scalar::filled;
 
 /// Replays `plan` at the points from number `first`, as many as there are lanes, with C columns; d is at most C.
 pub(crate) fn side_by_side<M, S, const N: usize, const P: usize, const Q: usize, const C: usize>(
@@ -19,11 +20,11 @@ pub(crate) fn side_by_side<M, S, const N: usize, const P: usize, const Q: usize,
 {
     let d = M::INFO.coordinates.len();
     let p: [S; P] = if points.shared() {
-        core::array::from_fn(|i| S::constant(points.parameter(first, i)))
+        filled(S::constant(0.0), |i| S::constant(points.parameter(first, i)))
     } else {
-        core::array::from_fn(|i| S::from_values(|lane| points.parameter(first + lane, i)))
+        filled(S::constant(0.0), |i| S::from_values(|lane| points.parameter(first + lane, i)))
     };
-    let z: [S; N] = core::array::from_fn(|i| match i < d {
+    let z: [S; N] = filled(S::constant(0.0), |i| match i < d {
         true => S::from_values(|lane| points.coordinate(first + lane, i)),
         false => S::constant(0.0),
     });

@@ -11,6 +11,7 @@ use super::segment::{ROOM, Segment};
 use crate::model::{Model, Section};
 use crate::ode::explicit::{Rates, Stages, attempt, stage_times};
 use crate::ode::{OdeState, Tolerance};
+use crate::scalar::filled;
 use crate::sensitivity::through;
 use core::marker::PhantomData;
 use smallvec::SmallVec;
@@ -201,8 +202,9 @@ impl<'a, M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: 
         if M::INFO.symmetric {
             if const { C > 0 } {
                 let by = M::symmetry_jacobian(&state.x, self.segment.p).dx;
-                state.dx = state.dx.map(|column| {
-                    core::array::from_fn(|i| (0..N).fold(S::constant(0.0), |sum, j| by[j][i].mul_add(column[j], sum)))
+                let (zero, dx) = (S::constant(0.0), state.dx);
+                state.dx = filled([zero; N], |c| {
+                    filled(zero, |i| (0..N).fold(zero, |sum, j| by[j][i].mul_add(dx[c][j], sum)))
                 });
             }
             state.x = M::symmetry(&state.x, self.segment.p);

@@ -18,6 +18,7 @@ use super::plan::{End, Leg};
 use crate::event::Surface;
 use crate::hybrid::GRAZING;
 use crate::model::{Gradient, Model, Section};
+use crate::scalar::filled;
 use crate::sensitivity::{Clock, Crossing};
 
 /// Steps to the event before the replay gives up.
@@ -129,7 +130,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
         let mut delta = S::constant(0.0);
         for _ in 0..if S::ORDER == 0 { CORRECTIONS } else { CORRECTIONS_WITH_DERIVATIVES } {
             let there = taylor(x, f, &bend, delta);
-            let rate = core::array::from_fn(|i| bend[i].mul_add(delta, f[i]));
+            let rate = filled(S::constant(0.0), |i| bend[i].mul_add(delta, f[i]));
             let value = self.segment.value::<M, N, Q>(surface, &there, tau + delta);
             delta = delta - value / self.segment.slope::<M, N, Q>(surface, &there, tau + delta, &rate);
         }
@@ -266,12 +267,12 @@ fn reach<S: Number, const N: usize, const C: usize>(
             at.dx[c][i] = rates.dx[c][i].mul_add(delta, at.dx[c][i]);
         }
     }
-    let before = core::array::from_fn(|i| bend[i].mul_add(delta, rates.x[i]));
+    let before = filled(S::constant(0.0), |i| bend[i].mul_add(delta, rates.x[i]));
     Landed { at, before, tau: tau + delta }
 }
 
 /// x + f delta + bend delta^2 / 2.
 fn taylor<S: Number, const N: usize>(x: &[S; N], f: &[S; N], bend: &[S; N], delta: S) -> [S; N] {
     let half = delta.times(0.5);
-    core::array::from_fn(|i| bend[i].mul_add(half, f[i]).mul_add(delta, x[i]))
+    filled(S::constant(0.0), |i| bend[i].mul_add(half, f[i]).mul_add(delta, x[i]))
 }

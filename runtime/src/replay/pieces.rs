@@ -5,6 +5,7 @@ use super::course::Course;
 use super::plan::{Checks, Leg, Plan, Sides};
 use crate::event::Side;
 use crate::model::{Model, Section};
+use crate::scalar::filled;
 use nalgebra::{DMatrix, DVector};
 
 /// A piece of a plan of one map.
@@ -151,8 +152,8 @@ where
         for (slot, value) in x.iter_mut().zip(start) {
             *slot = *value;
         }
-        let unit = |c: usize| core::array::from_fn(|i| if i == first + c { 1.0 } else { 0.0 });
-        let at = super::moving::Moving { x, dx: core::array::from_fn(unit) };
+        let unit = |c: usize| filled(0.0, |i| if i == first + c { 1.0 } else { 0.0 });
+        let at = super::moving::Moving { x, dx: filled([0.0; N], unit) };
         let mut course = Course::<M, f64, N, P, Q, C>::new(&piece.plan, section, p);
         if piece.from_section {
             course.embed(&at);

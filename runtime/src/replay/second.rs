@@ -8,6 +8,7 @@ use super::course::Course;
 use super::plan::Plan;
 use super::points::SecondOrder;
 use crate::model::{Model, Section};
+use crate::scalar::filled;
 use crate::sensitivity::Dual;
 use nalgebra::{DMatrix, DVector};
 
@@ -44,13 +45,13 @@ where
         for inner in (0..n.max(1)).step_by(INNER).filter(|inner| inner + INNER > outer) {
             let seed = |value: f64, direction: usize| -> Nested {
                 let along = |first: usize, k: usize| if first + k == direction { 1.0 } else { 0.0 };
-                let value = Dual { value, derivative: core::array::from_fn(|k| along(inner, k)) };
+                let value = Dual { value, derivative: filled(0.0, |k| along(inner, k)) };
                 let rate = |k| Dual { value: along(outer, k), derivative: [0.0; INNER] };
-                Dual { value, derivative: core::array::from_fn(rate) }
+                Dual { value, derivative: filled(rate(0), rate) }
             };
             let at: Vec<Nested> = z.iter().enumerate().map(|(i, z)| seed(*z, i)).collect();
             let by_parameter = |i: usize| chosen.iter().position(|c| *c == i).map_or(usize::MAX, |k| d + k);
-            let p = core::array::from_fn(|i| seed(p[i], by_parameter(i)));
+            let p = filled(seed(0.0, usize::MAX), |i| seed(p[i], by_parameter(i)));
             let mut course = Course::<M, Nested, N, P, Q, 0>::new(plan, section, &p);
             let end = course.map(&at, &[]);
             for i in 0..d.min(N) {

@@ -4,7 +4,7 @@ use super::moving::Moving;
 use super::number::Number;
 use crate::event::Surface;
 use crate::model::{Env, Gradient, Model};
-use crate::scalar::{LaneMask, Lanes, Scalar};
+use crate::scalar::{LaneMask, Lanes, Scalar, filled};
 use crate::sensitivity::{Dual, dot};
 use smallvec::SmallVec;
 
@@ -125,7 +125,7 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
             return dot(&g.dx, f) + g.dtau + g.dt;
         }
         S::from_values(|lane| {
-            let (x, f) = (x.map(|x| x.lane(lane)), f.map(|f| f.lane(lane)));
+            let (x, f) = (filled(0.0, |i| x[i].lane(lane)), filled(0.0, |i| f[i].lane(lane)));
             self.plain(lane, |segment| segment.slope::<M, N, Q>(surface, &x, tau.lane(lane), &f))
         })
     }
@@ -141,15 +141,15 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
             return self.along_time::<M, N, Q>(tau, x, S::constant(1.0), f);
         }
         let in_lane = |lane: usize| {
-            let (x, f) = (x.map(|x| x.lane(lane)), f.map(|f| f.lane(lane)));
+            let (x, f) = (filled(0.0, |i| x[i].lane(lane)), filled(0.0, |i| f[i].lane(lane)));
             self.plain(lane, |segment| segment.along_time::<M, N, Q>(tau.lane(lane), &x, 1.0, &f))
         };
-        core::array::from_fn(|i| S::from_values(|lane| in_lane(lane)[i]))
+        filled(S::constant(0.0), |i| S::from_values(|lane| in_lane(lane)[i]))
     }
 
     /// The values of everything in one lane, in plain numbers.
     fn plain<R>(&self, lane: usize, use_it: impl FnOnce(&Segment<'_, f64, P, 0>) -> R) -> R {
-        let p = self.p.map(|p| p.lane(lane));
+        let p = filled(0.0, |i| self.p[i].lane(lane));
         use_it(&Segment {
             mode: self.mode,
             p: &p,
@@ -214,7 +214,8 @@ impl<'a, S: Number, const P: usize, const C: usize> Segment<'a, S, P, C> {
             memory: &memory,
             branch: &self.branch,
         };
-        let x = core::array::from_fn(|i| Dual { value: x[i], derivative: [dx[i]] });
-        M::flow(self.mode, &x, &env).map(|rate| rate.derivative[0])
+        let x = filled(Dual::constant(0.0), |i| Dual { value: x[i], derivative: [dx[i]] });
+        let rates = M::flow(self.mode, &x, &env);
+        filled(S::constant(0.0), |i| rates[i].derivative[0])
     }
 }

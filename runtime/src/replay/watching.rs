@@ -12,6 +12,7 @@ use super::plan::{Checks, Leg, Sides};
 use crate::event::{Side, Surface};
 use crate::hybrid::{FAR, MISFIT, PLACES};
 use crate::model::Model;
+use crate::scalar::filled;
 use crate::sensitivity::dot;
 
 /// Between its ends the cubic may come closer to zero than the closer end, by this factor.
@@ -110,7 +111,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
     /// States at [`PLACES`] of the step of size `h`, each by a step of its own.
     #[inline(never)]
     fn states_inside(&mut self, h: S) -> [[S; N]; PLACES.len()] {
-        PLACES.map(|u| self.step(h.times(u)).0.x)
+        filled([S::constant(0.0); N], |i| self.step(h.times(PLACES[i])).0.x)
     }
 
     /// Declines lanes in which a surface is not resolved by the cubic, by the rule that runs have for their steps.
@@ -119,7 +120,7 @@ impl<M: Model<N, P, Q>, S: Number, const N: usize, const P: usize, const Q: usiz
             return;
         };
         let tau = self.tau;
-        let values: [S; PLACES.len()] = core::array::from_fn(|i| {
+        let values: [S; PLACES.len()] = filled(S::constant(0.0), |i| {
             self.segment.value::<M, N, Q>(sides.surface, &inside[i], tau + h.times(PLACES[i]))
         });
         let ((v0, d0), (v1, d1)) = ends;

@@ -6,7 +6,7 @@
 //! the library's in the last places and, for subnormal numbers, in more.
 
 use super::sine::{self, Register};
-use super::{FUSED, Real, Scalar};
+use super::{FUSED, Real, Scalar, filled};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use wide::{f64x8, u64x8};
 
@@ -57,7 +57,8 @@ impl Neg for Lanes {
 impl Lanes {
     /// A function of one number in every lane.
     fn each(self, function: impl Fn(f64) -> f64) -> Self {
-        Self::from(self.0.to_array().map(function))
+        let numbers = self.0.to_array();
+        Self::from_lanes(|i| function(numbers[i]))
     }
 
     /// A function of two numbers in every lane.
@@ -158,7 +159,7 @@ impl Real for Lanes {
     }
     #[inline]
     fn from_lanes(number: impl FnMut(usize) -> f64) -> Self {
-        Self(f64x8::new(core::array::from_fn(number)))
+        Self(f64x8::new(filled(0.0, number)))
     }
     #[inline]
     fn holds(mask: LaneMask, index: usize) -> bool {

@@ -4,7 +4,7 @@
 //! Nested, `Dual<Dual<S, B>, A>`, they carry all second derivatives along one of A and one of B directions: the scalars of
 //! second-order sensitivities.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, filled};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its derivatives along K directions.
@@ -19,7 +19,7 @@ pub struct Dual<S = f64, const K: usize = 1> {
 impl<S: Scalar, const K: usize> Dual<S, K> {
     /// A number that varies along direction `k` only, at unit rate.
     pub fn variable(value: S, k: usize) -> Self {
-        Self { value, derivative: core::array::from_fn(|i| S::constant(if i == k { 1.0 } else { 0.0 })) }
+        Self { value, derivative: filled(S::constant(0.0), |i| S::constant(if i == k { 1.0 } else { 0.0 })) }
     }
 
     /// The chain rule: `value` is f(self), `slope` is f'(self).
@@ -28,13 +28,13 @@ impl<S: Scalar, const K: usize> Dual<S, K> {
         // A zero derivative stays zero also where the slope is infinite (a square root at 0).
         let zero = S::constant(0.0);
         let part = |d: S| S::select(d.is_zero(), zero, slope * d);
-        Self { value, derivative: self.derivative.map(part) }
+        Self { value, derivative: filled(zero, |k| part(self.derivative[k])) }
     }
 
     /// Both derivatives, combined one by one.
     #[inline]
     fn zip(self, o: Self, value: S, combine: impl Fn(S, S) -> S) -> Self {
-        Self { value, derivative: core::array::from_fn(|k| combine(self.derivative[k], o.derivative[k])) }
+        Self { value, derivative: filled(S::constant(0.0), |k| combine(self.derivative[k], o.derivative[k])) }
     }
 }
 
@@ -81,7 +81,7 @@ impl<S: Scalar, const K: usize> Neg for Dual<S, K> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self { value: -self.value, derivative: self.derivative.map(|d| -d) }
+        Self { value: -self.value, derivative: filled(S::constant(0.0), |k| -self.derivative[k]) }
     }
 }
 
@@ -93,7 +93,10 @@ impl<S: Scalar, const K: usize> Scalar for Dual<S, K> {
     }
     #[inline]
     fn times(self, factor: f64) -> Self {
-        Self { value: self.value.times(factor), derivative: self.derivative.map(|d| d.times(factor)) }
+        Self {
+            value: self.value.times(factor),
+            derivative: filled(S::constant(0.0), |k| self.derivative[k].times(factor)),
+        }
     }
     #[inline]
     fn plus_times(self, factor: f64, other: Self) -> Self {

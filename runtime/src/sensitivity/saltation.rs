@@ -20,7 +20,7 @@
 //! docs/mathematics.md.
 
 use crate::model::{Gradient, Jacobian};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, filled};
 
 /// What becomes of the clock tau at an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ impl<S: Scalar, const N: usize, const P: usize> Crossing<'_, N, P, S> {
 /// The saltation matrix, as an array of columns: d x+ / d x- at fixed parameters.
 pub fn saltation_matrix<const N: usize, const P: usize>(crossing: &Crossing<'_, N, P>) -> [[f64; N]; N] {
     let dp = [0.0; P];
-    core::array::from_fn(|j| {
+    filled([0.0; N], |j| {
         let mut dx = [0.0; N];
         dx[j] = 1.0;
         let dtau = crossing.time_derivative(&dx, &dp, 0.0);

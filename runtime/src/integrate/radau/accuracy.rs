@@ -4,6 +4,7 @@ use super::{Radau, Tabulated};
 use crate::integrate::StepOf;
 use crate::ode::radau::{Rates, Workspace, size, tolerance_of_estimate, weighted};
 use crate::ode::{Bundle, OdeState, Tolerance};
+use crate::scalar::filled;
 
 /// Factor of the tolerance for the error estimate.
 pub(super) const FACTOR: f64 = 3.0;
@@ -25,7 +26,7 @@ where
             return f64::INFINITY;
         }
         let state = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };
-        let k: [Bundle<N, 0, 0>; S] = core::array::from_fn(|s| state(step.stages.k[s].x));
+        let k: [Bundle<N, 0, 0>; S] = filled(Bundle::ZERO, |s| state(step.stages.k[s].x));
         let start = state(step.start.x);
         let end = start.advance(step.h, t.a[S - 1], k.each_ref());
         let d = t.defect(step.h, &state(step.start_rates.x), &k);
@@ -55,7 +56,7 @@ where
     ) -> f64 {
         // Of the state alone: a variation may miss by a tolerance what slaves it, and is drawn back to it at once.
         let state = |x: [f64; N]| Bundle::<N, 0, 0> { x, q: [], dx: [], dq: [] };
-        let k: Rates<N, S> = core::array::from_fn(|s| step.stages.k[s].x);
+        let k: Rates<N, S> = filled([0.0; N], |s| step.stages.k[s].x);
         let term = |m: usize| {
             let coefficient = weighted(&Self::TABLEAU.coefficient(m), &k).map(|v| step.h * v);
             let estimate = tolerance_of_estimate(tolerance, S, FACTOR_WITH_RATES);

@@ -5,6 +5,7 @@ use crate::integrate::{Carried, Frame, Held, StepOf};
 use crate::model::{Linearised, Model};
 use crate::ode::Tolerance;
 use crate::ode::radau::{Implicit, Polynomial, Rates, Tableau, Workspace, solve, weighted};
+use crate::scalar::filled;
 use core::marker::PhantomData;
 
 /// Newton's method goes on until what is left is this fraction of the tolerance.
@@ -100,11 +101,11 @@ where
             return true;
         }
         let (t, h) = (&Self::TABLEAU, step.h);
-        let k: Rates<N, S> = core::array::from_fn(|s| step.stages.k[s].x);
+        let k: Rates<N, S> = filled([0.0; N], |s| step.stages.k[s].x);
         let polynomial = Polynomial { tau: step.tau, h, start: step.start.x, rates: k };
-        let x: [[f64; N]; S] = core::array::from_fn(|s| {
+        let x: [[f64; N]; S] = filled([0.0; N], |s| {
             let change = weighted(&t.a[s], &k);
-            core::array::from_fn(|i| polynomial.start[i] + h * change[i])
+            filled(0.0, |i| polynomial.start[i] + h * change[i])
         });
         let time = |s: usize| step.tau + t.c[s] * h;
         if held.columns > 0 {
@@ -113,9 +114,9 @@ where
                 return false;
             }
             *evaluations += S;
-            let forced: [[[f64; N]; C]; S] = core::array::from_fn(|s| R::forced(held, time(s), &x[s], &k[s]));
+            let forced: [[[f64; N]; C]; S] = filled([[0.0; N]; C], |s| R::forced(held, time(s), &x[s], &k[s]));
             for c in 0..held.columns.min(C) {
-                let of_column = core::array::from_fn(|s| forced[s][c]);
+                let of_column = filled([0.0; N], |s| forced[s][c]);
                 let dk = work.column(&step.start.dx[c], &of_column);
                 for (stage, dk) in step.stages.k.iter_mut().zip(&dk) {
                     stage.dx[c] = *dk;
@@ -157,5 +158,5 @@ fn predict<const N: usize, const S: usize>(
     (tau, h): (f64, f64),
 ) -> Option<Rates<N, S>> {
     let theta = |c: f64| (tau + c * h - polynomial.tau) / polynomial.h;
-    (theta(1.0) <= REACH).then(|| core::array::from_fn(|s| polynomial.rate(t, theta(t.c[s]))))
+    (theta(1.0) <= REACH).then(|| filled([0.0; N], |s| polynomial.rate(t, theta(t.c[s]))))
 }

@@ -5,7 +5,7 @@
 
 use super::coefficients::{A, C, E3, E5, STAGES};
 use crate::ode::{Blocks, OdeState, Tolerance};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, filled};
 
 /// The stages k_0 to k_11 of a step.
 pub type Stages<V> = [V; STAGES];
@@ -32,7 +32,7 @@ pub const NODES: [f64; STAGES - 1] = {
 /// The times of the stages 1 to 11 of a step, the last of which is its end.
 #[inline(always)]
 pub fn stage_times<T: Scalar>(tau: T, h: T) -> [T; STAGES - 1] {
-    core::array::from_fn(|i| tau.plus_times(C[i + 1], h))
+    filled(tau, |i| tau.plus_times(C[i + 1], h))
 }
 
 /// The flow at the times of the stages of a step. A trait and not a closure: closures are not inlined where they are called

@@ -15,6 +15,7 @@ use super::coefficients::Tableau;
 use super::stages::Workspace;
 use crate::model::Linearised;
 use crate::ode::{Blocks, Bundle, Tolerance};
+use crate::scalar::filled;
 
 /// The tolerance for the error estimate of a method with `stages` stages; `factor` as said above.
 pub fn tolerance_of_estimate(tolerance: Tolerance, stages: usize, factor: f64) -> Tolerance {
@@ -63,7 +64,7 @@ impl<const N: usize, const S: usize> Workspace<N, S> {
             right[a] *= self.filter_scales[a];
         }
         let e = self.filter.solve(&right);
-        core::array::from_fn(|a| e[a])
+        filled(0.0, |a| e[a])
     }
 }
 

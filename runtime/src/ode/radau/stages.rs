@@ -9,6 +9,7 @@ use super::elimination::{Solution, System};
 use super::inverse::Inverse;
 use super::polynomial::weighted;
 use crate::model::Linearised;
+use crate::scalar::filled;
 
 /// Most iterations of one step.
 const ITERATIONS: usize = 14;
@@ -98,7 +99,7 @@ pub(super) fn state_at<const N: usize, const S: usize>(
     k: &Rates<N, S>,
 ) -> [f64; N] {
     let change = weighted(&tableau.a[i], k);
-    core::array::from_fn(|a| x[a] + h * change[a])
+    filled(0.0, |a| x[a] + h * change[a])
 }
 
 /// Solves for the rates `k` of the stages of a step of size `h` from (`tau`, `x`), starting from what `k` holds. `scale` is
