@@ -5,7 +5,7 @@
 use approx::assert_abs_diff_eq;
 use gaitc_runtime::interrupt::Interrupt;
 use gaitc_runtime::model::{ModelInfo, Quantity};
-use gaitc_runtime::orbit::{GaitRequest, GaitStatus};
+use gaitc_runtime::orbit::{GaitRequest, GaitStatus, find_gait};
 use gaitc_runtime::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Method, RequestError, ReturnMap, Sensitivity, Statistics, Stop,
     StopReason,
@@ -14,6 +14,7 @@ use gaitc_runtime::study::basin::{Basin, End, Fate, Gaits as Numbered, Settings}
 use gaitc_runtime::study::sweep::{Gaits, Reference, Route};
 use gaitc_runtime::study::{Axis, Design, Pool};
 use nalgebra::{DMatrix, DVector};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A map of one coordinate and one parameter: value and slope, or `None` where it stops.
 struct Scalar(fn(f64, f64) -> Option<(f64, f64)>);
@@ -129,6 +130,45 @@ fn a_gait_that_is_far_away_is_followed() {
     let lost = Gaits::new(&map, Reference { parameters: vec![5.0], ..reference }).unwrap();
     assert_eq!(lost.at(&[7.0]).unwrap().0.status.name(), "no_event");
     assert_eq!(lost.at(&[0.5]).unwrap().0.status, GaitStatus::Converged);
+}
+
+/// z^2 = p has gaits for p > 0; elsewhere the search runs about, from the start and along the way there.
+#[test]
+fn the_work_for_a_point_without_a_gait_is_bounded() {
+    static MAPS: AtomicUsize = AtomicUsize::new(0);
+    let map = Scalar(|z, p| {
+        MAPS.fetch_add(1, Ordering::Relaxed);
+        (z.abs() < 1e6).then_some((z - (z * z - p), 1.0 - 2.0 * z))
+    });
+    let maps = || MAPS.swap(0, Ordering::Relaxed);
+    let request = GaitRequest { measures: false, ..GaitRequest::new(&[-3.0], &[]) };
+    let endless = find_gait(&map, &request, &[0.7]).unwrap();
+    assert_eq!((endless.status.name(), maps()), ("not_converged", endless.maps));
+    let short = find_gait(&map, &GaitRequest { map_limit: 7, ..request }, &[0.7]).unwrap();
+    assert_eq!((short.status.name(), short.maps), ("map_limit", 7));
+    assert!(short.message.contains("within 7 maps"), "{}", short.message);
+    maps();
+    let reference = Reference {
+        parameters: vec![1.0],
+        memory: Vec::new(),
+        start: vec![0.7],
+        period: 1,
+        accuracy: Accuracy::default(),
+    };
+    let gaits = Gaits::new(&map, reference).unwrap();
+    assert!(maps() < 12);
+    for p in [1e-4, 4.0, 900.0] {
+        let (outcome, _) = gaits.at(&[p]).unwrap();
+        assert_eq!(outcome.status, GaitStatus::Converged, "{p}");
+        assert_abs_diff_eq!(outcome.gait.unwrap().coordinates[0].abs(), p.sqrt(), epsilon = 1e-7);
+    }
+    for p in [-1e-3, -3.0, -1e3] {
+        maps();
+        let (outcome, _) = gaits.at(&[p]).unwrap();
+        assert!(["map_limit", "not_converged"].contains(&outcome.status.name()), "{p}: {:?}", outcome.status);
+        let maps = maps();
+        assert!(maps < 400, "{p}: {maps}");
+    }
 }
 
 /// z -> p z (1 - z) settles on a point, on two by turns, on four; outside [0, 1] it leaves for good.

@@ -41,13 +41,18 @@ fn starts_lead_to_the_gait_or_nowhere() {
 #[test]
 fn however_it_is_computed_the_bytes_are_the_same() {
     let folder = tempfile::tempdir().unwrap();
-    let [one, two, merged] = ["one.parquet", "two.parquet", "merged.parquet"].map(|name| at(folder.path(), name));
+    let [one, two, merged, csv] =
+        ["one.parquet", "two.parquet", "merged.parquet", "one.csv"].map(|name| at(folder.path(), name));
     done(&[&RUNNER[..], &["--threads", "1", "--out", &one]].concat());
+    done(&[&RUNNER[..], &["--threads", "1", "--out", &csv]].concat());
+    let json = |threads: &str| done(&[&RUNNER[..], &["--json", "--threads", threads]].concat());
+    assert!(json("1") == json("4"));
     let dir = at(folder.path(), "study");
-    let study = [&RUNNER[..], &["--threads", "2", "--chunk", "3", "--dir", &dir, "--out", &two]].concat();
+    let study = [&RUNNER[..], &["--threads", "4", "--chunk", "3", "--dir", &dir, "--out", &two]].concat();
     done(&study);
     let bytes = fs::read(&one).unwrap();
     assert!(bytes == fs::read(&two).unwrap());
+    assert!(fs::read(&csv).unwrap() == fs::read(folder.path().join("study/basin.csv")).unwrap());
     fs::remove_file(folder.path().join("study/chunks/00000004.chunk")).unwrap();
     fs::remove_file(folder.path().join("study/chunks/00000007.chunk")).unwrap();
     done(&[&study[..], &["--resume"]].concat());

@@ -1,4 +1,4 @@
-//! The example for Dask, where Dask is there: the merged table is that of one run.
+//! The example for Dask, where Dask is there: the merged table is that of one run. With GAITC_REQUIRE_DASK=1 it has to be there.
 
 use crate::sweep::GRID;
 use crate::{at, done};
@@ -10,6 +10,12 @@ fn shards_on_a_local_cluster_give_the_table_of_one_run() {
     let python = std::env::var("GAITC_DASK_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let has_dask = Command::new(&python).args(["-c", "import dask.distributed"]).output();
     if !has_dask.is_ok_and(|output| output.status.success()) {
+        let needed = std::env::var_os("GAITC_REQUIRE_DASK").is_some_and(|value| value == "1");
+        assert!(
+            !needed,
+            "GAITC_REQUIRE_DASK=1, but `{python}` has no dask.distributed: run .ci/dask, or set GAITC_DASK_PYTHON"
+        );
+        eprintln!("`{python}` has no dask.distributed: the example is not run");
         return;
     }
     let folder = tempfile::tempdir().unwrap();

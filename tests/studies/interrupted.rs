@@ -4,7 +4,7 @@ use crate::{at, done};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Kills that a study has to survive.
 const KILLS: usize = 22;
@@ -74,6 +74,34 @@ fn damaged_chunks_are_computed_again() {
     assert!(fs::read(chunk(3)).unwrap() == whole);
     assert_eq!(fs::metadata(chunk(9)).unwrap().modified().unwrap(), kept, "whole chunks stay");
     assert!(!folder.path().join("alone/chunks/.left.1.tmp").exists());
+}
+
+/// Ctrl-C in the middle of many long maps (a walker that has fallen tumbles on to the time limit): nothing waits for their ends.
+#[cfg(unix)]
+#[test]
+fn an_interruption_is_heard_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gaitc"));
+    command.current_dir(env!("CARGO_MANIFEST_DIR")).args([
+        "basin",
+        "compass_walker",
+        "--over",
+        "theta_st=0.3..0.6 rad:3200",
+    ]);
+    command.args(["--set", "gamma=40 deg", "--chunk", "3200", "--dir", &at(folder.path(), "study")]);
+    let long = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    while !folder.path().join("study/study.json").exists() {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let asked = Instant::now();
+    assert!(Command::new("kill").args(["-INT", &long.id().to_string()]).status().unwrap().success());
+    let output = long.wait_with_output().unwrap();
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{errors}");
+    assert!(errors.contains("interrupted: 0 points are kept in"), "{errors}");
+    // A second where nothing else runs; a group of starts would take half a minute.
+    assert!(asked.elapsed() < Duration::from_secs(8), "{:?}", asked.elapsed());
 }
 
 /// Ctrl-C: says how to go on.

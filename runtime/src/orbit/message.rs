@@ -1,11 +1,12 @@
 //! How a search for a gait ended, in words.
 
-use super::newton::GaitStatus;
+use super::newton::{GaitRequest, GaitStatus};
 use crate::model::ModelInfo;
 use crate::return_map::StopReason;
 
 /// One sentence on the end of a search.
-pub(super) fn message(info: &ModelInfo, status: &GaitStatus, residual: f64, tolerance: f64) -> String {
+pub(super) fn message(info: &ModelInfo, status: &GaitStatus, residual: f64, request: &GaitRequest<'_>) -> String {
+    let tolerance = request.tolerance;
     match status {
         GaitStatus::Open(open) => format!("no gait: {}", open.describe(info)),
         GaitStatus::Converged => format!("the step maps onto itself to {residual:.1e}"),
@@ -16,6 +17,10 @@ pub(super) fn message(info: &ModelInfo, status: &GaitStatus, residual: f64, tole
         ),
         GaitStatus::NotConverged => format!(
             "no fixed point found: the residual stays at {residual:.1e}, above the tolerance {tolerance:.1e}; try another guess, or follow the gait from parameters where it is known"
+        ),
+        GaitStatus::GaveUp => format!(
+            "no fixed point found within {} maps: the residual stays at {residual:.1e}, above the tolerance {tolerance:.1e}; try another guess, or follow the gait from parameters where it is known",
+            request.map_limit
         ),
     }
 }

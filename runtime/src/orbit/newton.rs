@@ -9,6 +9,7 @@ use crate::event::NOTHING;
 use crate::return_map::{
     Accuracy, MapOutcome, MapRequest, MapResult, Open, RequestError, ReturnMap, Sensitivity, Stop, StopReason,
 };
+use core::cell::Cell;
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// What to look for.
@@ -27,6 +28,9 @@ pub struct GaitRequest<'a> {
     pub tolerance: f64,
     /// Most Newton steps from one start.
     pub iteration_limit: usize,
+    /// Most maps, over all starts: then the search gives up. Of several in a row each counts; multiple shooting is not counted. A
+    /// search with a limit passes over trials whose maps are much longer than that of the guess, too.
+    pub map_limit: usize,
     /// Whether functionals and measures of the gait are wanted.
     pub measures: bool,
     /// Into how many segments a map is cut: 1 is single shooting, more are multiple shooting, for models
@@ -35,7 +39,7 @@ pub struct GaitRequest<'a> {
 }
 
 impl<'a> GaitRequest<'a> {
-    /// Period 1, default accuracy, tolerance 1e-10, 50 iterations, measures.
+    /// Period 1, default accuracy, tolerance 1e-10, 50 iterations, any number of maps, measures.
     pub fn new(parameters: &'a [f64], memory: &'a [f64]) -> Self {
         let accuracy = Accuracy::default();
         Self {
@@ -45,6 +49,7 @@ impl<'a> GaitRequest<'a> {
             accuracy,
             tolerance: 1e-10,
             iteration_limit: 50,
+            map_limit: usize::MAX,
             measures: true,
             segments: 1,
         }
@@ -75,6 +80,8 @@ pub enum GaitStatus {
     Open(Open),
     /// The search came to no fixed point.
     NotConverged,
+    /// The search came to no fixed point within the number of maps that it may take.
+    GaveUp,
 }
 
 impl GaitStatus {
@@ -84,6 +91,7 @@ impl GaitStatus {
             Self::Converged => "converged",
             Self::Open(_) => "not_closed",
             Self::NotConverged => "not_converged",
+            Self::GaveUp => "map_limit",
             Self::Stopped(stop) => stop.reason.name(),
         }
     }
@@ -102,6 +110,8 @@ pub struct GaitOutcome {
     pub residual: f64,
     /// Newton steps taken, over all starts.
     pub iterations: usize,
+    /// Maps run in the search; see [`GaitRequest::map_limit`].
+    pub maps: usize,
 }
 
 /// By how much the run with measures may miss the tolerance of the search.
@@ -119,6 +129,11 @@ const HALVINGS: usize = 20;
 const FALLBACK_ITERATES: usize = 12;
 /// After each of so many iterates Newton is tried again.
 const ITERATES_A_START: usize = 4;
+/// In a search with a limit a trial takes at most so many times the steps of the guess's map: a machine that has fallen tumbles on
+/// until the time limit, ...
+const LONGER: usize = 10;
+/// ... but it may always take so many.
+const SHORT: usize = 300;
 
 /// Finds a gait near `guess` (section coordinates, SI units).
 ///
@@ -128,7 +143,7 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
     if map.info().uses_time {
         return Err(RequestError::ExplicitTime(map.info().name));
     }
-    let search = Search { map, request };
+    let search = Search { map, request, maps: Cell::new(0), steps: Cell::new(request.accuracy.step_limit) };
     if request.segments > 1 {
         return search.multiple(guess);
     }
@@ -145,17 +160,20 @@ pub fn find_gait(map: &dyn ReturnMap, request: &GaitRequest<'_>, guess: &[f64]) 
             }
             Ok(point) => {
                 let usual = *usual.get_or_insert(point.map.duration);
+                if turn == 0 && request.map_limit < usize::MAX {
+                    search.shorten(&point.map);
+                }
                 let point = search.newton(point, &mut iterations)?;
                 let vanishes = || point.residual <= request.tolerance && point.vanishes();
                 if (point.map.duration <= COLLAPSED * usual || vanishes()) && !point.is_fixed() {
-                    return Ok(collapsed(point, iterations));
+                    return Ok(search.collapsed(point, iterations));
                 }
                 if best.as_ref().is_none_or(|b| point.residual < b.residual) {
                     best = Some(point);
                 }
             }
         }
-        if best.as_ref().is_some_and(|b| b.residual <= request.tolerance) {
+        if best.as_ref().is_some_and(|b| b.residual <= request.tolerance) || search.is_spent() {
             break;
         }
         if turn == 0 {
@@ -198,10 +216,26 @@ impl Point {
 pub(super) struct Search<'a> {
     pub(super) map: &'a dyn ReturnMap,
     pub(super) request: &'a GaitRequest<'a>,
+    /// Maps run so far.
+    maps: Cell<usize>,
+    /// Most steps of a map.
+    steps: Cell<usize>,
 }
 
 impl Search<'_> {
+    /// Whether all maps have been run that may be.
+    fn is_spent(&self) -> bool {
+        self.maps.get() >= self.request.map_limit
+    }
+
+    /// Passes over what is much longer than the guess's map from now on.
+    fn shorten(&self, guess: &MapResult) {
+        let steps = guess.statistics.steps + guess.statistics.rejected;
+        self.steps.set(self.steps.get().min(steps.saturating_mul(LONGER).max(SHORT)));
+    }
+
     fn run(&self, z: &[f64], sensitivity: Sensitivity<'_>, measures: bool) -> Result<MapOutcome, RequestError> {
+        self.maps.set(self.maps.get().saturating_add(self.request.period));
         self.map.evaluate(&self.map_request(z, sensitivity, measures))
     }
 
@@ -218,7 +252,7 @@ impl Search<'_> {
             period: self.request.period,
             sensitivity,
             measures,
-            accuracy: self.request.accuracy,
+            accuracy: Accuracy { step_limit: self.steps.get(), ..self.request.accuracy },
         }
     }
 
@@ -236,7 +270,7 @@ impl Search<'_> {
     /// Newton with line search as long as the residual falls.
     fn newton(&self, mut point: Point, iterations: &mut usize) -> Result<Point, RequestError> {
         for _ in 0..self.request.iteration_limit {
-            if point.residual == 0.0 {
+            if point.residual == 0.0 || self.is_spent() {
                 break;
             }
             let Some(step) = newton_step(&point) else {
@@ -263,7 +297,7 @@ impl Search<'_> {
                 return Ok(Some(better));
             }
             // Close to a solution a step that does not help is rounding: no use in shortening it.
-            if point.residual <= self.request.tolerance {
+            if point.residual <= self.request.tolerance || self.is_spent() {
                 break;
             }
             length *= 0.5;
@@ -289,6 +323,7 @@ impl Search<'_> {
         stop: Option<Stop>,
         iterations: usize,
     ) -> Result<GaitOutcome, RequestError> {
+        let (maps, spent) = (self.maps.get(), self.is_spent());
         let mut residual = best.as_ref().map_or(f64::INFINITY, |b| b.residual);
         let gait = match best {
             Some(point) => Some(self.gait(point)?),
@@ -309,10 +344,31 @@ impl Search<'_> {
             (Some(open), _) => GaitStatus::Open(open),
             _ if converged => GaitStatus::Converged,
             (_, Some(stop)) if gait.is_none() => GaitStatus::Stopped(stop),
+            _ if spent => GaitStatus::GaveUp,
             _ => GaitStatus::NotConverged,
         };
-        let message = super::message::message(info, &status, residual, self.request.tolerance);
-        Ok(GaitOutcome { status, message, gait, residual, iterations })
+        let message = super::message::message(info, &status, residual, self.request);
+        Ok(GaitOutcome { status, message, gait, residual, iterations, maps })
+    }
+
+    /// The outcome of a search that ran into a step of no length: where a step ends as it begins every map has a fixed point, which
+    /// is no gait.
+    fn collapsed(&self, point: Point, iterations: usize) -> GaitOutcome {
+        let stop =
+            Stop { reason: StopReason::Zeno, time: point.map.duration, state: point.map.state.as_slice().to_vec() };
+        let message = format!(
+            "the search runs into a step of zero length, which is no gait ({:.1e} s when it was given up); try another guess or \
+         other parameters",
+            stop.time
+        );
+        GaitOutcome {
+            status: GaitStatus::Stopped(stop),
+            message,
+            gait: None,
+            residual: point.residual,
+            iterations,
+            maps: self.maps.get(),
+        }
     }
 
     fn gait(&self, point: Point) -> Result<Gait, RequestError> {
@@ -330,18 +386,6 @@ impl Search<'_> {
         let spectral_radius = spectral_radius(&multipliers);
         Ok(Gait { coordinates: point.z, map, multipliers, spectral_radius })
     }
-}
-
-/// The outcome of a search that ran into a step of no length: where a step ends as it begins every map has a fixed point, which
-/// is no gait.
-fn collapsed(point: Point, iterations: usize) -> GaitOutcome {
-    let stop = Stop { reason: StopReason::Zeno, time: point.map.duration, state: point.map.state.as_slice().to_vec() };
-    let message = format!(
-        "the search runs into a step of zero length, which is no gait ({:.1e} s when it was given up); try another guess or \
-         other parameters",
-        stop.time
-    );
-    GaitOutcome { status: GaitStatus::Stopped(stop), message, gait: None, residual: point.residual, iterations }
 }
 
 /// A coordinate, or 0 where it is so small that products of two such numbers underflow: Newton's method halves its way to a gait
