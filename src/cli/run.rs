@@ -49,6 +49,19 @@ pub(super) fn run(cli: &Cli, args: &RunArgs) -> Result<Outcome, InputError> {
     super::run(&again).map_err(|error| origin.asked(error))
 }
 
+/// Reads the text of a run file, up to the arguments of the command that it asks for, which is not run: what a program that makes run
+/// files can check them with.
+///
+/// # Errors
+/// In words, when it is no run file, or the command does not take these arguments.
+pub fn check(text: &str) -> Result<(), String> {
+    let checked = origin::of_text("run.toml".as_ref(), text.to_owned()).and_then(|read| {
+        let arguments = arguments(&read.run, &[], &read.origin)?;
+        super::parse(arguments).map_err(|error| InputError(super::args::message(&error)))
+    });
+    checked.map(drop).map_err(|InputError(message)| message)
+}
+
 /// Takes out of a run what further arguments say otherwise: a flag that is given once, or the same name of a `NAME=VALUE` flag.
 fn give_way(run: &mut Map<String, Value>, further: &[OsString]) {
     for (i, argument) in further.iter().enumerate() {

@@ -108,15 +108,13 @@ impl FileError {
 
 fn to_write(kind: ErrorKind) -> &'static str {
     match kind {
-        ErrorKind::NotFound => "make the folder first, or name a file in a folder that exists",
-        ErrorKind::NotADirectory => {
-            "a part of the path is a file: name a file in a folder that exists and can be written"
-        }
+        ErrorKind::NotFound => "make the folder first, or choose one that exists",
+        ErrorKind::NotADirectory => "a part of the path is a file, not a folder: choose another place",
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-            "make room, or name a file on another disk, and run the same command again"
+            "make room, or choose a place on another disk, and run the same command again"
         }
-        ErrorKind::InvalidFilename => "name a file with a shorter name",
-        _ => "name a file in a folder that exists and can be written",
+        ErrorKind::InvalidFilename => "choose a shorter name",
+        _ => "choose a place that can be written",
     }
 }
 
