@@ -11,11 +11,14 @@ fn refused(folder: &Path, arguments: &[&str], expected: &[&str]) {
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{arguments:?}\n{said}");
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    // `check` has its diagnostics in one place only.
     let told = match document.pointer("/diagnostics/0") {
-        Some(found) => format!("{}\nhelp: {}", found["message"].as_str().unwrap(), found["help"].as_str().unwrap()),
-        None => document["message"].as_str().unwrap().to_owned(),
+        Some(found) => {
+            vec![format!("{}\nhelp: {}", found["message"].as_str().unwrap(), found["help"].as_str().unwrap())]
+        }
+        None => vec![document["message"].as_str().unwrap().to_owned(), said],
     };
-    for said in [&said, &told] {
+    for said in &told {
         for expected in expected.iter().chain(&["help: "]) {
             assert!(said.contains(expected), "{arguments:?}: no `{expected}` in\n{said}");
         }
@@ -35,7 +38,7 @@ fn what_cannot_be_read_is_refused_with_what_to_do() {
         (&["run", "folder.toml"], "this is a folder"),
         (&["run", "large.toml"], "1048577 bytes"),
         (&["run", "latin.toml"], "not UTF-8"),
-        (&["run", "large.toml/x"], "Not a directory"),
+        (&["run", "large.toml/x"], "a part of the path is not a folder"),
         (&["show", "none.toml"], "there is no such file"),
         (&["show", "folder.toml"], "this is a folder"),
         (&["check", "none.toml"], "there is no such file"),
@@ -82,7 +85,7 @@ fn what_cannot_be_written_is_refused_before_the_work() {
     let long = format!("{}.csv", "x".repeat(300));
     for (file, expected) in [
         ("none/x.csv", "there is no such folder"),
-        ("kept.csv/x.csv", "Not a directory"),
+        ("kept.csv/x.csv", "a part of the path is not a folder"),
         ("folder.csv", "this is a folder"),
         ("kept.csv", "write-protected"),
         (&long, "File name too long"),
@@ -95,7 +98,7 @@ fn what_cannot_be_written_is_refused_before_the_work() {
         refused(folder, &["report", "bouncing_ball", "--out", "none/x.html"], &["cannot write"]);
     }
     refused(folder, &["man", "kept.csv/man"], &["cannot write `kept.csv/man`"]);
-    refused(folder, &["new", "kept.csv/new"], &["Not a directory"]);
+    refused(folder, &["new", "kept.csv/new"], &["something is in the way"]);
     refused(folder, &["sweep", "bouncing_ball", "--over", "e=0.5", "--dir", "kept.csv/x"], &["cannot write"]);
     assert_eq!(fs::read_to_string(folder.join("kept.csv")).unwrap(), "mine");
     assert_eq!(fs::read_dir(folder).unwrap().count(), 2, "nothing was left behind");
