@@ -36,35 +36,27 @@ fn answers(folder: &Path, arguments: &[&str]) -> (i32, String) {
     (code, out.into_owned())
 }
 
+/// The commands, as the program's own help has them: a new one is covered by being there.
+fn commands(folder: &Path) -> Vec<String> {
+    let (_, help) = answers(folder, &["--help"]);
+    let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    // What is further in goes on with the line before.
+    let names = lines.filter(|line| !line.starts_with("    ")).filter_map(|line| line.split_whitespace().next());
+    names.filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
 /// Long names of the flags of a command.
 fn flags(folder: &Path, command: &str) -> Vec<String> {
     let (_, help) = answers(folder, &[command, "--help"]);
-    let names = help.split_whitespace().filter(|word| word.starts_with("--") && word.len() > 2);
-    let mut names: Vec<String> = names.map(|word| word.trim_end_matches([',', '.', ')', ']']).to_owned()).collect();
-    names.retain(|name| name != "--help" && name != "--version");
-    names.dedup();
-    names
+    let options = help.lines().skip_while(|line| *line != "Options:").map(str::trim_start);
+    let names = options.filter(|line| line.starts_with('-')).filter_map(|line| line.split_once("--"));
+    let name = |(_, rest): (&str, &str)| rest.split([' ', ',', '=', '[']).next().map(|name| format!("--{name}"));
+    let names = names.filter_map(name);
+    names.filter(|name| !["--help", "--version"].contains(&name.as_str())).collect()
 }
 
-const COMMANDS: [&str; 14] = [
-    "models",
-    "check",
-    "show",
-    "explain",
-    "gait",
-    "simulate",
-    "continue",
-    "sweep",
-    "basin",
-    "compare",
-    "merge",
-    "run",
-    "verify",
-    "completions",
-];
-
 /// What a flag may be given: nothing that is both right and much work.
-const VALUES: [&str; 28] = [
+const VALUES: [&str; 31] = [
     "",
     "0",
     "-1",
@@ -91,32 +83,48 @@ const VALUES: [&str; 28] = [
     "e=200 %",
     "g=0",
     "y > 0",
+    "height:spectral_radius",
+    "spectral_radius <= 0.9",
+    "picture.svg",
     "\u{fc}\u{221a}\u{1f9d7}",
-    "/nowhere/at/all.csv",
+    "/proc/nowhere/at/all.csv",
 ];
 
-const MODELS: [&str; 4] = ["bouncing_ball", "bouncing_bal", "../specs/bouncing_ball.toml", ""];
+/// What stands behind a command, besides the model that is right.
+const OTHERS: [&str; 7] = ["bouncing_bal", "../specs/bouncing_ball.toml", "", "E0101", "bash", "a folder", "--"];
 
 #[test]
 fn random_command_lines_are_answered() {
     let folder = tempfile::tempdir().unwrap();
-    let known: Vec<Vec<String>> = COMMANDS.iter().map(|command| flags(folder.path(), command)).collect();
+    // Two folders down: `..` is then one that may be written to.
+    let place = folder.path().join("a/b");
+    fs::create_dir_all(&place).unwrap();
+    let commands = commands(&place);
+    assert!(
+        commands.iter().any(|name| name == "optimize") && commands.iter().any(|name| name == "man"),
+        "{commands:?}"
+    );
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
-    for _ in 0..140 {
-        let command = random.below(COMMANDS.len());
-        let flags: Vec<&str> = known[command].iter().map(String::as_str).collect();
-        let mut arguments = vec![COMMANDS[command]];
-        if random.below(8) > 0 {
-            arguments.push(if random.below(3) > 0 { MODELS[0] } else { random.of(&MODELS) });
-        }
+    for command in &commands {
+        let flags = flags(&place, command);
+        assert!(flags.iter().any(|flag| flag == "--json"), "{command}: {flags:?}");
         // More points than a test can wait for are not asked for: what is valid above is small.
-        for _ in 0..random.below(4) {
-            arguments.push(if flags.is_empty() { "--json" } else { random.of(&flags) });
-            if random.below(3) > 0 {
-                arguments.push(random.of(&VALUES));
+        let given = |random: &mut Random, flag: Option<usize>| {
+            let mut arguments = vec![command.as_str()];
+            if random.below(8) > 0 {
+                arguments.push(if random.below(3) > 0 { "bouncing_ball" } else { random.of(&OTHERS) });
             }
-        }
-        answers(folder.path(), &arguments);
+            let further: Vec<usize> = (0..random.below(3)).map(|_| random.below(flags.len())).collect();
+            for flag in flag.into_iter().chain(further) {
+                arguments.push(&flags[flag]);
+                if random.below(4) > 0 {
+                    arguments.push(random.of(&VALUES));
+                }
+            }
+            answers(&place, &arguments);
+        };
+        (0..flags.len()).for_each(|flag| given(&mut random, Some(flag)));
+        (0..2).for_each(|_| given(&mut random, None));
     }
 }
 
@@ -146,7 +154,8 @@ fn damaged_run_files_are_answered() {
     let (_, result) = answers(folder.path(), &["gait", "bouncing_ball", "--json"]);
     let mut random = Random(88_172_645_463_325_252);
     for turn in 0..60 {
-        fs::write(&file, damaged(if turn % 3 == 0 { result.as_bytes() } else { RUN.as_bytes() }, &mut random)).unwrap();
+        let whole = if turn % 3 == 0 { result.as_bytes() } else { RUN.as_bytes() };
+        fs::write(&file, damaged(whole, &mut random)).unwrap();
         answers(folder.path(), &["run", path, "--quiet"]);
     }
 }

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
 mod common;
+#[path = "run/files.rs"]
+mod files;
 
 use common::{json, text};
 use gaitc::provenance::{KEY, Provenance, find};
@@ -107,17 +109,33 @@ fn wrong_run_files_are_refused_with_what_to_write() {
         ("command = \"run\"", "no command is named `run`"),
         ("command = \"gait\"\nmodel = \"x\"\nperiode = 2", "did you mean `period`?"),
         ("command = \"gait\"\nmodel = \"x\"\njson = 3", "write `true` or `false`"),
-        ("command = \"gait\"\nmodel = \"x\"\n[set]\npsi = [1, 2]", "write one value for `psi`"),
-        ("command = ", "TOML parse error"),
+        ("command = \"gait\"\nmodel = \"x\"\n[set]\npsi = [1, 2]", "run.toml:4:1"),
+        ("command = \"gait\"\nmodel = \"x\"\n[set.psi]\na = 1", "`set.psi` has no value that can be used"),
+        ("command = \"gait\"\nmodel = \"x\"\ntol = 1979-05-27", "is a date"),
+        ("command = \"gait\"\nmodel = \"x\"\nperiod = true", "`period` has no value that can be used"),
+        ("command = 3", "`command` is a number, not the name of a command"),
+        ("command = ", "run.toml:1:11"),
+        ("command = \"gait\"\ncommand = \"gait\"", "run.toml:2:1"),
         ("command = \"gait\"", "<MODEL>"),
         ("command = \"gait\"\nmodel = \"--help\"", "no compiled model is named `--help`"),
     ] {
         let said = complaint(contents);
         assert!(said.contains(expected), "{contents}\n{said}");
-        assert!(said.starts_with("error: run.toml") || said.contains("no compiled model"), "{said}");
+        assert!(said.contains("run.toml") && said.contains("help: "), "{said}");
     }
-    let (code, _, said) = text(&["run", "no such file.toml"]);
-    assert!(code == 1 && said.contains("no such file.toml"), "{said}");
+    // Nothing that is much too long is said again.
+    let long = "x".repeat(200_000);
+    for contents in [
+        format!("command = \"gait\" {long}"),
+        format!("command = \"{long}\""),
+        format!("command = \"gait\"\n{long} = 1"),
+        format!("command = \"gait\"\nmodel = \"{long}\""),
+        format!("command = \"gait\"\nmodel = \"bouncing_ball\"\nset = [\"{long}\"]"),
+        format!("command = \"gait\"\nmodel = \"bouncing_ball\"\ntol = \"{long}\""),
+    ] {
+        let said = complaint(&contents);
+        assert!(said.contains("run.toml") && said.len() < 1500, "{} bytes: {:.2000}", said.len(), said);
+    }
     // Not a run file, not a result.
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("picture.png");
@@ -182,7 +200,7 @@ fn shells_and_manuals_know_every_command() {
     assert!(pages.join("gaitc.1").exists());
     let blocked = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml").join("man");
     let (code, _, said) = text(&["man", blocked.to_str().unwrap()]);
-    assert!(code == 1 && said.contains("help: name a folder"), "{said}");
+    assert!(code == 1 && said.contains("help: choose another place"), "{said}");
 }
 
 #[test]
@@ -191,4 +209,49 @@ fn verbose_says_how_long_it_took_and_quiet_nothing() {
     let said = stderr(&[&outside[..], &["--verbose"]].concat());
     assert!(said.ends_with(" s\n") && said.contains("values of prescribed_length: from specs/"), "{said}");
     assert_eq!(stderr(&[&outside[..], &["-q"]].concat()), "");
+}
+
+#[test]
+fn a_wrong_flag_is_named_and_shown() {
+    for (arguments, expected) in [
+        (
+            &["gait", "bouncing_ball", "--set", "kick=0.4 x"][..],
+            &["--> --set:1:10", "| kick=0.4 x", "|          ^"][..],
+        ),
+        (&["gait", "bouncing_ball", "--set", "kick"], &["--> --set:1:1", "a `=` is missing"]),
+        (&["gait", "bouncing_ball", "--guess", "v= 2 kg"], &["--> --guess:1:4", "m/s, not kg"]),
+        (&["simulate", "bouncing_ball", "--show", "v + "], &["--> --show:1:5"]),
+        (&["simulate", "bouncing_ball", "--time", "x"], &["--> --time:1:1"]),
+        (&["simulate", "bouncing_ball", "--interval", "1 m"], &["--> --interval:1:1"]),
+        (&["simulate", "bouncing_ball", "--from", "v=y"], &["--> --from:1:3"]),
+        (&["simulate", "bouncing_ball", "--state", "y=1 kg"], &["--> --state:1:3"]),
+        (&["continue", "bouncing_ball", "--over", "kick=0.1 m/s..z"], &["--> --over:1:15"]),
+        (&["continue", "bouncing_ball", "--over", "e=0.1..0.9", "--from", "q"], &["--> --from:1:1"]),
+        (&["continue", "bouncing_ball", "--over", "e=0.1..0.9", "--step", "q"], &["--> --step:1:1"]),
+        (&["sweep", "bouncing_ball", "--over", "kick=0.1..z m/s:3"], &["--> --over:1:11"]),
+        (&["basin", "bouncing_ball", "--over", "v=1..2 m/s:z"], &["--> --over:1:12"]),
+        (&["optimize", "bouncing_ball", "--vary", "kick=0.4..z"], &["--> --vary:1:11"]),
+        (&["optimize", "bouncing_ball", "--robust", "kick=1"], &["--> --robust:1:6"]),
+        (
+            &["optimize", "bouncing_ball", "--subject-to", "nothing_like_it <= 3"],
+            &["--> --subject-to:1:1", "gaitc show"],
+        ),
+        (&["optimize", "bouncing_ball", "--maximize", "2*z", "--vary", "e=0..1"], &["--> --maximize:1:3"]),
+        (&["optimize", "bouncing_ball", "--minimize", "2*z", "--vary", "e=0..1"], &["--> --minimize:1:3"]),
+        (&["optimize", "bouncing_ball", "--trade", "height:2*zz"], &["--> --trade:1:10"]),
+    ] {
+        let (code, _, said) = text(arguments);
+        assert_eq!(code, 1, "{arguments:?}");
+        assert!(expected.iter().all(|expected| said.contains(expected)), "{arguments:?}\n{said}");
+    }
+}
+
+#[test]
+fn manuals_and_completions_know_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, pages) = json(&["man", folder.path().to_str().unwrap()]);
+    let pages = pages["files"].as_array().unwrap().len();
+    assert_eq!((code, pages), (0, fs::read_dir(folder.path()).unwrap().count()));
+    let (code, refused) = json(&["completions", "bash"]);
+    assert!(code == 1 && refused["message"].as_str().unwrap().contains("leave --json out"), "{refused}");
 }

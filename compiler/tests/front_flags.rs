@@ -145,3 +145,19 @@ fn errors_underline_the_flag() {
     assert!(text.contains("1 | 25 degr\n  |    ^^^^"), "{text}");
     assert!(error.render(true).contains('\u{1b}'));
 }
+
+/// The end of an argument is what is read of it; the whole is what is shown.
+#[test]
+fn a_flag_is_shown_with_its_whole_argument() {
+    let said = |argument: &str| {
+        let (_, text) = parse_assignment(argument).unwrap();
+        parse_values(text, dimension("m")).unwrap_err().given_as("--over", argument).to_string()
+    };
+    let shown = said("l_s = 1..z m:3");
+    assert!(shown.contains("--> --over:1:10\n") && shown.contains("1 | l_s = 1..z m:3\n  |          ^"), "{shown}");
+    assert!(said("l_s=").contains("--> --over:1:5\n"), "{}", said("l_s="));
+    assert!(said("l_s=1 µg").contains("--> --over:1:5\n"), "{}", said("l_s=1 µg"));
+    // What is no part of the argument stays as it was read.
+    let alone = parse_quantity("1 kg", dimension("m")).unwrap_err().given_as("--set", "other").to_string();
+    assert!(alone.contains("--> command line:1:1") && alone.contains("| 1 kg"), "{alone}");
+}

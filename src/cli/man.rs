@@ -18,7 +18,7 @@ pub(crate) struct ManArgs {
 
 pub(super) fn run(cli: &Cli, args: &ManArgs) -> Result<Outcome, InputError> {
     let folder = &args.folder;
-    std::fs::create_dir_all(folder).map_err(|error| not_written(&FileError::writing(folder, error)))?;
+    std::fs::create_dir_all(folder).map_err(|error| FileError::writing(folder, error))?;
     let mut program = Cli::command().name("gaitc");
     program.build();
     let pages = std::iter::once(&program).chain(program.get_subcommands());
@@ -27,7 +27,7 @@ pub(super) fn run(cli: &Cli, args: &ManArgs) -> Result<Outcome, InputError> {
         let name = format!("{}.1", title(command));
         let path = folder.join(&name);
         let page = page(command).map_err(|error| FileError::writing(&path, error));
-        page.and_then(|page| files::write(&path, &page)).map_err(|error| not_written(&error))?;
+        page.and_then(|page| files::write(&path, &page))?;
         written.push(name);
     }
     if cli.json {
@@ -46,12 +46,4 @@ fn page(command: &Command) -> std::io::Result<Vec<u8>> {
     let mut page = Vec::new();
     Man::new(command.clone()).title(title(command)).section("1").render(&mut page)?;
     Ok(page)
-}
-
-fn not_written(error: &FileError) -> InputError {
-    InputError(format!(
-        "cannot write `{}`: {}\n  help: name a folder that can be written",
-        error.path().display(),
-        error.why()
-    ))
 }

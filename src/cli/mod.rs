@@ -19,9 +19,10 @@ mod output;
 mod plots;
 mod provenance;
 mod report;
-mod run;
+pub mod run;
 mod schema;
 mod show;
+mod signals;
 mod simulate;
 mod stops;
 mod study;
@@ -63,6 +64,7 @@ impl<E: std::error::Error> From<E> for InputError {
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
+    signals::hold_back();
     let cli = match parse(std::env::args_os()) {
         Ok(cli) => cli,
         Err(message) => {

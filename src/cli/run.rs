@@ -37,8 +37,7 @@ pub(super) fn run(cli: &Cli, args: &RunArgs) -> Result<Outcome, InputError> {
     let Read { mut run, made, origin } = origin::read(&args.file)?;
     give_way(&mut run, &args.arguments);
     let arguments = arguments(&run, &args.arguments, &origin)?;
-    let parsed = super::parse(arguments).map_err(|error| InputError(super::args::message(&error)));
-    let mut again = parsed.map_err(|error| origin.asked(error))?;
+    let mut again = super::parse(arguments).map_err(|error| origin.asked(not_taken(&error)))?;
     again.json |= cli.json;
     again.quiet |= cli.quiet;
     again.verbose |= cli.verbose;
@@ -47,6 +46,25 @@ pub(super) fn run(cli: &Cli, args: &RunArgs) -> Result<Outcome, InputError> {
         compare(&again, made);
     }
     super::run(&again).map_err(|error| origin.asked(error))
+}
+
+/// Reads the text of a run file, up to the arguments of the command that it asks for, which is not run: what a program that makes run
+/// files can check them with.
+///
+/// # Errors
+/// In words, when it is no run file, or the command does not take these arguments.
+pub fn check(text: &str) -> Result<(), String> {
+    let checked = origin::of_text("run.toml".as_ref(), text.to_owned()).and_then(|read| {
+        let arguments = arguments(&read.run, &[], &read.origin)?;
+        super::parse(arguments).map_err(|error| not_taken(&error))
+    });
+    checked.map(drop).map_err(|InputError(message)| message)
+}
+
+/// Arguments that the command does not take.
+fn not_taken(error: &clap::Error) -> InputError {
+    let help = "`gaitc COMMAND --help` says what the command takes, `gaitc run --help` how it is written";
+    InputError(format!("{}\n  help: {help}", super::args::message(error)))
 }
 
 /// Takes out of a run what further arguments say otherwise: a flag that is given once, or the same name of a `NAME=VALUE` flag.

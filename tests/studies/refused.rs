@@ -40,6 +40,11 @@ fn a_folder_that_is_in_use_or_holds_something_else_is_left_alone() {
         refused(&[&GRID[..], &["--dir", &foreign], flags].concat(), &["not empty", "holds no study"]);
     }
     assert_eq!(fs::read_dir(&foreign).unwrap().count(), 1);
+    // A manifest that somebody edited: what differs is said, not all that there is.
+    let manifest = fs::read_to_string(folder.path().join("study/study.json")).unwrap();
+    let edited = manifest.replace("\"name\": \"psi\"", "\"name\": \"chi\"");
+    fs::write(folder.path().join("study/study.json"), edited).unwrap();
+    refused(&resume, &["another study: `columns.chi.name` is \"chi\" there, \"psi\" here\n"]);
     fs::write(folder.path().join("study/study.json"), "{}").unwrap();
     refused(&resume, &["study.json", "damaged"]);
 }

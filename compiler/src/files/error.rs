@@ -83,7 +83,11 @@ impl FileError {
         match &self.problem {
             Problem::System(_) if self.is_missing() && self.writing => "there is no such folder".to_owned(),
             Problem::System(_) if self.is_missing() => "there is no such file".to_owned(),
-            Problem::System(error) => plainly(error),
+            Problem::System(error) => match error.kind() {
+                ErrorKind::NotADirectory => "a part of the path is not a folder".to_owned(),
+                ErrorKind::AlreadyExists => "something is in the way".to_owned(),
+                _ => plainly(error),
+            },
             Problem::Folder => "this is a folder".to_owned(),
             Problem::NotRegular => "this is a pipe or a device, not a regular file".to_owned(),
             Problem::TooLarge { bytes, most } => format!("this file has {bytes} bytes; {most} are read at most"),
@@ -108,15 +112,16 @@ impl FileError {
 
 fn to_write(kind: ErrorKind) -> &'static str {
     match kind {
-        ErrorKind::NotFound => "make the folder first, or name a file in a folder that exists",
-        ErrorKind::NotADirectory => {
-            "a part of the path is a file: name a file in a folder that exists and can be written"
+        ErrorKind::NotFound => "make the folder first, or choose one that exists",
+        ErrorKind::NotADirectory => "choose another place",
+        ErrorKind::AlreadyExists => {
+            "choose another place, or remove what is there: a file where a folder is meant, or what a killed run has left"
         }
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-            "make room, or name a file on another disk, and run the same command again"
+            "make room, or choose a place on another disk, and run the same command again"
         }
-        ErrorKind::InvalidFilename => "name a file with a shorter name",
-        _ => "name a file in a folder that exists and can be written",
+        ErrorKind::InvalidFilename => "choose a shorter name",
+        _ => "choose a place that can be written",
     }
 }
 
@@ -124,7 +129,7 @@ fn to_read(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::NotFound => "check its name: it is looked for from the folder in which gaitc runs",
         ErrorKind::PermissionDenied => "give read permission (`chmod u+r`), or name another",
-        ErrorKind::NotADirectory => "a part of the path is a file, not a folder: check the path",
+        ErrorKind::NotADirectory => "check the path",
         _ => "name another that can be read",
     }
 }

@@ -47,7 +47,11 @@ pub(super) fn read(path: &Path) -> Result<Read<'_>, InputError> {
     if !is_run {
         return Err(Origin { path, text: None }.plainly("there is no run in this file", NOTHING));
     }
-    let text = String::from_utf8(contents).map_err(|_| FileError::reading(path, files::Problem::NotText))?;
+    of_text(path, String::from_utf8(contents).map_err(|_| FileError::reading(path, files::Problem::NotText))?)
+}
+
+/// Reads the text of a run file.
+pub(super) fn of_text(path: &Path, text: String) -> Result<Read<'_>, InputError> {
     let (run, places) = match toml::from_str::<toml::Table>(&text).and_then(|run| Ok((run, places(&text)?))) {
         Ok(found) => found,
         Err(error) => {

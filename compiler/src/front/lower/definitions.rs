@@ -180,6 +180,7 @@ pub(super) fn undefined(name: &str, span: Span, scope: &Scope) -> Diagnostic {
             diagnostic.help(format!("{take}`rename` it to what it is called there{near}"))
         }
         Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+        None if scope.is_of_flag() => diagnostic.help("take a name that the model has: `gaitc show MODEL` lists them"),
         None => diagnostic.help(format!("define `{name}` in [parameters], [state], [memory] or [let]")),
     }
 }

@@ -82,6 +82,11 @@ impl Scope {
         Self { spec: None, ..self.clone() }
     }
 
+    /// Whether the text is that of a flag, which defines nothing.
+    pub(super) fn is_of_flag(&self) -> bool {
+        self.spec.is_none()
+    }
+
     /// Whether a place is in a part.
     pub(super) fn in_part(&self, span: Span) -> bool {
         self.spec.is_some_and(|spec| span.file != spec)
