@@ -76,6 +76,60 @@ fn the_table_has_both_columns_in_the_published_unit() {
     assert!(said.contains("at psi = 20 deg") && said.contains("source: "), "{said}");
 }
 
+/// The animals' speeds scatter: the spread stands behind the number, and is drawn.
+#[test]
+fn spreads_are_shown() {
+    let (_, answer) = json(&["compare", "fg_template"]);
+    let row = of(&comparisons(&answer)[0], "climb_speed").clone();
+    assert!((number(&row, "/spread") - 0.042).abs() < 1e-15, "{row:#}");
+    let (_, said, _) = text(&["compare", "fg_template"]);
+    assert!(said.contains("19.5 cm/s ± 4.2 cm/s"), "{said}");
+    let spec = fs::read_to_string("specs/fg_template.toml").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path().to_str().unwrap();
+    for (own, says) in [
+        ("spread = { climb_speed = \"-4.2 cm/s\" }", "the spread of `climb_speed` is negative"),
+        ("spread = { climb_sped = \"4.2 cm/s\" }", "did you mean `climb_speed`?"),
+        ("spread = { climb_speed = \"4.2 cm\" }", "`climb_speed`"),
+    ] {
+        let own = spec.replace("spread = { climb_speed = \"4.2 cm/s\" }", own);
+        assert_ne!(own, spec);
+        fs::write(format!("{folder}/fg_template.toml"), own).unwrap();
+        let (code, _, errors) = text(&["--specs", folder, "compare", "fg_template"]);
+        assert!(code == 1 && errors.contains(says), "{errors}");
+    }
+}
+
+/// What is a value of a curve is drawn: means, also of what the spec does not draw, and coordinates of the section.
+#[test]
+fn published_values_of_curves_are_lines_in_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawn = |model: &str| {
+        let file = folder.path().join(format!("{model}.svg"));
+        let (code, _, errors) = text(&["compare", model, "--plot", file.to_str().unwrap()]);
+        assert_eq!(code, 0, "{errors}");
+        (fs::read_to_string(file).unwrap_or_default(), errors)
+    };
+    for (model, levels) in [
+        (
+            "self_exciting",
+            &["thesis, v_y: mean, published, 0.75 m/s", "thesis, abs(v_x): mean, published, 0.15 m/s"][..],
+        ),
+        ("compass_walker", &["theta_st: on the section, published, -0.1913 rad", "w_st, w_sw [rad/s]"]),
+        ("fg_template", &["v_y: mean, published, 0.195 m/s ± 0.042 m/s"]),
+    ] {
+        let (picture, _) = drawn(model);
+        for level in levels {
+            assert!(picture.contains(level), "{model}: no {level}");
+        }
+    }
+    let (picture, errors) = drawn("angle_switched");
+    assert!(
+        picture.is_empty() && errors.contains("warning: --plot") && errors.contains("value of a curve"),
+        "{errors}"
+    );
+}
+
 /// A spec of one's own: a gait that is not found is said, the other is shown; what is wrong is an error.
 #[test]
 fn a_gait_that_is_not_found_is_said() {

@@ -29,6 +29,8 @@ fn the_prescribed_length_climber_becomes_stable_where_the_closed_form_says() {
     assert_abs_diff_eq!(number(at, "/value"), expected, epsilon = 1e-9);
     assert_abs_diff_eq!(number(at, "/spectral_radius"), 1.0, epsilon = 1e-9);
     assert!(number(at, "/multipliers/0/1") != 0.0);
+    // There the map preserves areas: swings keep their size on both sides.
+    assert_eq!(at["criticality"], Value::Null);
     for point in points {
         let psi = number(point, "/value");
         assert_abs_diff_eq!(number(point, "/spectral_radius").powi(2), (2.0 * psi).cos() * 0.63 / 0.5, epsilon = 1e-8);
@@ -119,22 +121,27 @@ fn without_a_gait_to_start_from_the_ways_out_are_named() {
 #[test]
 fn files_hold_the_diagram() {
     let folder = tempfile::tempdir().unwrap();
-    let (csv, svg) = (folder.path().join("branches.csv"), folder.path().join("branches.svg"));
+    let [csv, svg, circle] = ["branches.csv", "branches.svg", "multipliers.svg"].map(|name| folder.path().join(name));
     let files = ["--out", csv.to_str().unwrap(), "--plot", svg.to_str().unwrap()];
+    let files = [&files[..], &["--plot-multipliers", circle.to_str().unwrap()]].concat();
     let (code, out, errors) = text(&[&SPRAWL[..], &["--step", "4 deg"], &files].concat());
     assert_eq!((code, errors.as_str()), (0, ""), "{out}");
     let table = fs::read_to_string(&csv).unwrap();
     assert!(table.contains("psi") && table.contains("multiplier_1_re") && table.contains("climb_speed"), "{table}");
     assert_eq!(table.lines().filter(|line| line.contains("Neimark-Sacker")).count(), 1, "{table}");
     let picture = fs::read_to_string(&svg).unwrap();
-    for label in ["psi [deg]", "climb_speed [m/s]", "Neimark-Sacker", "unstable"] {
+    for label in ["psi [deg]", "climb_speed [m/s]", "Neimark-Sacker", ">stable<", ">unstable<"] {
+        assert!(picture.contains(label), "{label}");
+    }
+    let picture = fs::read_to_string(&circle).unwrap();
+    for label in ["magnitude of multipliers", "psi [deg]", "largest", "number 2", "1: stable below"] {
         assert!(picture.contains(label), "{label}");
     }
 }
 
 #[test]
 fn wrong_input_is_refused_with_what_to_write() {
-    let cases: [(&[&str], &[&str]); 17] = [
+    let cases: [(&[&str], &[&str]); 18] = [
         (&["--over", "psi=20..20 deg"], &["both ends", "20 deg", "gaitc gait"]),
         (&["--over", "psi=30..10 deg"], &["above the upper"]),
         (&["--over", "psy=10..30 deg"], &["`psy`", "did you mean `psi`"]),
@@ -152,6 +159,7 @@ fn wrong_input_is_refused_with_what_to_write() {
         (&["--over", "psi=10..30 deg", "--measure", "climb_sped"], &["did you mean `climb_speed`"]),
         (&["--over", "psi=10..30 deg", "--out", "a.xls"], &["--out", "`.csv` or `.parquet`"]),
         (&["--over", "psi=10..30 deg", "--plot", "/no/such/folder/a.svg"], &["--plot", "folder"]),
+        (&["--over", "psi=10..30 deg", "--plot", "a.svg", "--plot-multipliers", "a.svg"], &["same file", "name two"]),
     ];
     for (flags, expected) in cases {
         let output = gaitc(&[&["continue", "prescribed_length"], flags].concat());

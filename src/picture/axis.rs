@@ -62,6 +62,15 @@ impl Axis {
         Self { low, high, ticks, exponent, offset }
     }
 
+    /// With every second tick, that at 0 among them, as long as two are left.
+    pub(super) fn thinned(mut self) -> Self {
+        let zero = self.ticks.iter().position(|(place, _)| *place == 0.0).unwrap_or(0) % 2;
+        if self.ticks.len() - zero > 2 {
+            self.ticks = self.ticks.into_iter().skip(zero).step_by(2).collect();
+        }
+        self
+    }
+
     /// Whether labels are not the values themselves, which the picture then has to say.
     pub(super) fn is_scaled(&self) -> bool {
         self.exponent != 0 || self.offset != 0.0

@@ -49,7 +49,7 @@ pub(super) fn horizontal(ends: (f64, f64), width: f64) -> Axis {
         let widest = axis.ticks.iter().map(|(_, label)| font::width(label, SMALL)).fold(0.0, f64::max);
         let room = width / axis.ticks.len().max(1) as f64;
         if wished <= 2 || widest + 14.0 < room {
-            return axis;
+            return if widest + 8.0 < room { axis } else { axis.thinned() };
         }
         wished -= 1;
     }
@@ -105,8 +105,11 @@ impl Frame {
         }
         let scaled = factor_width(&self.x);
         let baseline = bottom + NUMBERS_BELOW + TEXT + 2.0;
-        let label = font::fitted_label(label, TEXT, right - left - 2.0 * scaled);
-        canvas.text((0.5 * (left + right), baseline), &label, TEXT, Anchor::Middle, Ink::Text);
+        let beside = if scaled > 0.0 { scaled + 8.0 } else { 0.0 };
+        let label = font::fitted_label(label, TEXT, right - left - beside);
+        // In the middle, or to the left where the factor needs the room.
+        let middle = (0.5 * (left + right)).min(right - beside - 0.5 * font::width(&label, TEXT));
+        canvas.text((middle, baseline), &label, TEXT, Anchor::Middle, Ink::Text);
         factor(canvas, &self.x, (right - scaled, baseline));
     }
 

@@ -137,8 +137,9 @@ fn values(study: &Study<'_>, gait: &Gait) -> Table {
 }
 
 fn multipliers(gait: &Gait) -> Table {
-    let row =
-        |m: &nalgebra::Complex<f64>| vec![format!("{:.6}", m.norm()), format!("{:.6}", m.re), format!("{:.6}", m.im)];
+    // Six decimals, and of what is less than these some digits.
+    let shown = |v: f64| if v != 0.0 && v.abs() < 1e-6 { format_number(v) } else { format!("{v:.6}") };
+    let row = |m: &nalgebra::Complex<f64>| [m.norm(), m.re, m.im].map(shown).to_vec();
     Table {
         caption: "Multipliers: eigenvalues of the return map's derivative; the gait is stable where all have a magnitude below 1".to_owned(),
         header: texts(["magnitude", "real part", "imaginary part"]),

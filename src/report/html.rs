@@ -8,6 +8,19 @@ pub(super) fn text(text: &str) -> String {
     escape(text)
 }
 
+/// Escaped text with what stands between backticks as code.
+pub(super) fn coded(words: &str) -> String {
+    let parts = words.split('`').collect::<Vec<_>>();
+    // A backtick without its pair stays what it is.
+    let pairs = parts.len() - 1 - (parts.len() - 1) % 2;
+    let part = |(i, part): (usize, &&str)| match i {
+        i if i % 2 == 1 && i < pairs => format!("<code>{}</code>", text(part)),
+        i if i > pairs => format!("`{}", text(part)),
+        _ => text(part),
+    };
+    parts.iter().enumerate().map(part).collect()
+}
+
 /// An element around what is HTML already.
 pub(super) fn element(tag: &str, inner: &str) -> String {
     format!("<{tag}>{inner}</{tag}>\n")
@@ -47,4 +60,16 @@ pub(super) fn table(table: &Table) -> String {
 pub(super) fn figure(figure: &Figure) -> String {
     let caption = element("figcaption", &text(&figure.caption));
     format!("<figure>\n<div class=\"wide\">{}</div>{caption}</figure>\n", inline_svg(&*figure.picture))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::coded;
+
+    #[test]
+    fn what_stands_between_backticks_is_code() {
+        assert_eq!(coded("`a<b` and `c`"), "<code>a&lt;b</code> and <code>c</code>");
+        assert_eq!(coded("no code & one ` left"), "no code &amp; one ` left");
+        assert_eq!(coded("`a` and ` left"), "<code>a</code> and ` left");
+    }
 }

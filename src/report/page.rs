@@ -1,6 +1,6 @@
 //! The page itself.
 
-use super::html::{element, figure, section, table, text};
+use super::html::{coded, element, figure, section, table, text};
 use super::{Comparison, Contents, equations};
 use crate::provenance;
 use base64::Engine;
@@ -50,7 +50,7 @@ pub fn page(contents: &Contents) -> String {
 
 fn header(contents: &Contents) -> String {
     let source = if contents.source.is_empty() { String::new() } else { format!(" · {}", text(&contents.source)) };
-    let summary: String = contents.summary.iter().map(|line| element("p", &text(line))).collect();
+    let summary: String = contents.summary.iter().map(|line| element("p", &coded(line))).collect();
     format!(
         "<header>\n<h1>{}</h1>\n<p class=\"source\">Model <code>{}</code>{source}</p>\n{summary}</header>\n",
         text(&contents.title),

@@ -87,6 +87,31 @@ fn an_address_with_a_time_and_reduced_motion_open_it_paused() {
     assert_eq!(browser.complaints(), Vec::<Value>::new());
 }
 
+/// Without a gait the page says of each picture what it shows; without coordinates it has no multipliers.
+#[test]
+fn captions_say_what_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = |args: &[&str], expected: i32| {
+        let file = folder.path().join("captions.html");
+        let (code, _, errors) = text(&[&["report"], args, &["--steps", "3", "--out", file.to_str().unwrap()]].concat());
+        assert_eq!(code, expected, "{errors}");
+        fs::read_to_string(file).unwrap()
+    };
+    let lost = page(&["angle_switched", "--set", "psi=18 deg"], 2);
+    assert!(
+        lost.contains("two steps from the first guess")
+            && lost.contains("Path of the body over 3 steps from the first guess")
+    );
+    // It takes longer than any step may.
+    let slow = page(&["prescribed_length", "--set", "omega=0.001 rad/s"], 2);
+    assert!(slow.contains("the run from the first guess, which comes to no step"));
+    let forgetful = page(&["power_stroke_crank"], 0);
+    assert!(forgetful.contains("every step is the same") && !forgetful.contains("Multipliers: eigenvalues"));
+    // Without gravity nothing is lifted: the cost of transport is no number.
+    let weightless = page(&["power_stroke", "--set", "g=0 m/s^2"], 0);
+    assert!(weightless.contains("<td>–</td>") && weightless.contains("is not a finite number"), "no dash");
+}
+
 /// Every script and every fraction has its two parts, and no formula is left as LaTeX.
 #[test]
 fn formulas_are_whole() {

@@ -183,6 +183,36 @@ fn pictures_of_hard_values_are_whole() {
     }
 }
 
+/// The place of the first text of a picture that begins so.
+fn place(picture: &str, text: &str) -> (f64, f64) {
+    let (before, _) = picture.split_once(&format!(">{text}")).unwrap_or_else(|| panic!("no text {text}"));
+    let tag = before.rsplit("<text ").next().unwrap();
+    let number =
+        |key: &str| tag.split(&format!("{key}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+    (number("x"), number("y"))
+}
+
+/// The power of ten of an axis stands below the legend; a path along a line is a slim picture, not a wide one.
+#[test]
+fn paths_of_any_shape_are_told_apart_from_their_labels() {
+    let curve = |points: Vec<(f64, f64)>| Curve { name: "body".to_owned(), points };
+    let path = |points| Path {
+        title: "small".to_owned(),
+        x: "to the right [m]".to_owned(),
+        y: "up [m]".to_owned(),
+        curves: vec![curve(points)],
+        ..Path::default()
+    };
+    let picture = |path: &Path| svg(path, &Provenance::default());
+    let small = picture(&path(vec![(0.0, 0.0), (3e-6, 1e-6)]));
+    assert!(place(&small, "×10").1 > place(&small, "body").1 + 12.0, "{small}");
+    let upright = picture(&path(vec![(0.0, 0.0), (0.0, 1.0)]));
+    let size = upright.split("viewBox=\"0 0 ").nth(1).unwrap().split('"').next().unwrap();
+    let (width, height) =
+        size.split_once(' ').map(|(w, h)| (w.parse::<f64>().unwrap(), h.parse::<f64>().unwrap())).unwrap();
+    assert!(width < 0.6 * height, "{size}");
+}
+
 /// A PNG of the widest picture is drawn whole, and is what its header says.
 #[test]
 fn a_png_has_the_size_of_its_picture() {

@@ -129,6 +129,26 @@ fn a_run_that_stops_says_so() {
     assert_abs_diff_eq!(number(&all, "/stopped/time"), 2.0 * 3.0 / 9.81 / 0.2, epsilon = 1e-7);
 }
 
+/// A ball below the floor, or on it and on its way down, falls on: which guard it has passed, and by how much, is said.
+#[test]
+fn a_start_beyond_a_guard_is_said() {
+    let warned = |flags: &[&str]| {
+        let (_, all) = json(&[&["simulate"], flags, &["--time", "1s", "--samples", "2"]].concat());
+        all["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let below = warned(&["bouncing_ball", "--state", "y=-10 cm", "--state", "v=0 m/s"]);
+    assert_eq!(below.len(), 1, "{below:?}");
+    for part in ["beyond the guard of `impact`", "`y` is -0.1 m there", "start where it is positive"] {
+        assert!(below[0].contains(part), "no {part} in {below:?}");
+    }
+    let through = warned(&["bouncing_ball", "--from", "v=-2 m/s"]);
+    assert!(through.len() == 1 && through[0].contains("`y` is zero there and its rate is -2 m/s"), "{through:?}");
+    // The runner's apex is behind it, too, but is a surface, where nothing changes.
+    assert_eq!(warned(&["bouncing_ball", "--from", "v=2 m/s"]), Vec::<String>::new());
+    assert_eq!(warned(&["slip_runner", "--from", "y=1 m"]), Vec::<String>::new());
+    assert!(warned(&["slip_runner", "--from", "y=10 cm"])[0].contains("guard of `touch_down`"));
+}
+
 /// No gait, nothing to follow.
 #[test]
 fn a_gait_that_is_not_there_is_said() {
@@ -175,7 +195,8 @@ fn files_are_written() {
     assert_eq!(lines.count(), list(&all, "/samples/t").len());
     let steps = fs::read_to_string(&events).unwrap();
     assert_eq!(steps.lines().count(), 4);
-    assert!(steps.contains("q_theta_after"));
+    assert!(steps.contains("q_theta_after") && steps.contains("transversality"), "{steps}");
+    assert_eq!(all["events"][0]["transversality_unit"], "1");
     let (plot, way) = (fs::read_to_string(&plot).unwrap(), fs::read_to_string(&way).unwrap());
     assert!(plot.starts_with("<svg") && plot.contains("rho_a") && way.contains("foot"));
     // Any of them does the run again.
