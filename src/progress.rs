@@ -53,8 +53,8 @@ impl Progress {
 
     /// One more piece is done, here.
     pub fn reach(&self, here: &str) {
-        self.0.set_message(here.to_owned());
         self.0.inc(1);
+        self.0.set_message(here.to_owned());
     }
 }
 

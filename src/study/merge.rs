@@ -110,49 +110,43 @@ fn twice(folders: &[Folder]) -> Vec<String> {
 
 /// What is missing, in which shards, and what to run for it.
 fn incomplete(folders: &[Folder], manifest: &Manifest, missing: &[u64]) -> String {
-    let mut stretches: Vec<(u64, u64)> = Vec::new();
-    for &chunk in missing {
-        match stretches.last_mut() {
-            Some((_, last)) if *last + 1 == chunk => *last = chunk,
-            _ => stretches.push((chunk, chunk)),
-        }
-    }
-    let mut named: Vec<String> = stretches.iter().take(NAMED).map(|stretch| points(manifest, *stretch)).collect();
-    if stretches.len() > NAMED {
-        named.push(counted((stretches.len() - NAMED) as u64, "more stretch"));
-    }
     let is = |count: usize| if count == 1 { "is" } else { "are" };
-    let mut text = format!(
-        "{} of {} {} missing: points {}\n",
-        missing.len(),
-        counted(manifest.chunks(), "chunk"),
-        is(missing.len()),
-        named.join(", ")
-    );
-    let unfinished = unfinished(folders, missing);
-    unfinished.iter().take(NAMED).for_each(|line| text += &format!("  {line}\n"));
-    if unfinished.len() > NAMED {
-        text += &format!("  {} that are not finished\n", counted((unfinished.len() - NAMED) as u64, "more folder"));
-    }
-    let absent = absent(folders, missing);
+    let (chunks, points) = (counted(manifest.chunks(), "chunk"), stretches(manifest, missing));
+    let mut lines = vec![format!("{} of {chunks} {} missing: points {points}", missing.len(), is(missing.len()))];
     let mut help = Vec::new();
+    let unfinished = unfinished(folders, missing);
+    lines.extend(unfinished.iter().take(NAMED).cloned());
+    if unfinished.len() > NAMED {
+        lines.push(format!("nor are {}", counted((unfinished.len() - NAMED) as u64, "more folder")));
+    }
     if !unfinished.is_empty() {
         help.push("run what is not finished again with --resume".to_owned());
     }
+    let absent = absent(folders, missing);
     if let Some(first) = absent.first() {
         let listed: Vec<&str> = absent.iter().take(2 * NAMED).map(String::as_str).collect();
         let more = if absent.len() > listed.len() { ", ..." } else { "" };
         let shards = if absent.len() == 1 { "shard" } else { "shards" };
-        text += &format!("  {shards} {}{more} {} in none of the folders\n", listed.join(", "), is(absent.len()));
-        help.push(format!(
-            "name the {shards_folder} too, or run it with --shard {first}",
-            shards_folder = match absent.len() {
-                1 => "folder of that shard".to_owned(),
-                _ => "folders of those shards".to_owned(),
-            }
-        ));
+        lines.push(format!("{shards} {}{more} {} in none of the folders", listed.join(", "), is(absent.len())));
+        help.push(format!("name the folder of every shard, or run what is absent, as with --shard {first}"));
     }
-    text + &format!("  help: {}", help.join("; "))
+    format!("{}\n  help: {}", lines.join("\n  "), help.join("; "))
+}
+
+/// The points of some chunks, in words.
+fn stretches(manifest: &Manifest, chunks: &[u64]) -> String {
+    let mut all: Vec<(u64, u64)> = Vec::new();
+    for &chunk in chunks {
+        match all.last_mut() {
+            Some((_, last)) if *last + 1 == chunk => *last = chunk,
+            _ => all.push((chunk, chunk)),
+        }
+    }
+    let mut named: Vec<String> = all.iter().take(NAMED).map(|stretch| points(manifest, *stretch)).collect();
+    if all.len() > NAMED {
+        named.push(counted((all.len() - NAMED) as u64, "more stretch"));
+    }
+    named.join(", ")
 }
 
 /// The points of a stretch of chunks, in words.

@@ -1,6 +1,6 @@
 //! Tables, sweeps and basins: what is written is what was computed, whatever happens in between. One binary, so that it is linked once.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)] // a test may fail loudly, and say what it left out
 
 mod basin;
 #[path = "../common/mod.rs"]
