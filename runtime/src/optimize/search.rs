@@ -26,6 +26,8 @@ const SMALLEST_PENALTY: f64 = 0.1;
 /// Violation, relative to the radius, that Clarabel's tolerance leaves.
 const INTERIOR_POINT: f64 = 1e-7;
 const SMALLEST_RADIUS: f64 = 1e-13;
+/// A step shorter than this part of the radius is far inside the ball.
+const FAR_INSIDE: f64 = 1e-4;
 /// Scaled objective below which it counts as unbounded.
 const UNBOUNDED: f64 = -1e7;
 /// Residual at which rough derivatives have given what they can.
@@ -376,8 +378,21 @@ impl Search<'_, '_> {
     }
 }
 
-/// Clarabel's step, refined on its active set where that holds.
+/// Clarabel's step, refined on its active set where that holds. Where it does not, a step far inside the ball has no more digits than
+/// Clarabel's tolerance of the radius: it is computed once more in a ball of its own size.
 fn solve(problem: &Subproblem<'_>) -> Result<Step, Unsolved> {
     let step = problem.solve()?;
-    Ok(refine(problem, &step).unwrap_or(step))
+    if let Some(refined) = refine(problem, &step) {
+        return Ok(refined);
+    }
+    let length = step.s.norm();
+    if length > FAR_INSIDE * problem.radius {
+        return Ok(step);
+    }
+    let radius = f64::max(10.0 * length, 1e-2 * FAR_INSIDE * problem.radius);
+    let closer = Subproblem { radius, ..problem.clone() };
+    Ok(match closer.solve() {
+        Ok(second) if second.s.norm() < 0.9 * radius => refine(&closer, &second).unwrap_or(second),
+        _ => step,
+    })
 }

@@ -1,14 +1,11 @@
 //! Extrema over a path whose place jumps at the optimum, against brute force that knows no derivative.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failing test should say where
 
-mod optimize_support;
-
+use super::optimize_support::{Closed, Dual, about, expression, margin, problem, solved};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use gaitc_runtime::model::ModelInfo;
 use gaitc_runtime::optimize::{Problem, Sense, Solution, Status, Vary};
 use gaitc_runtime::return_map::{Candidate, MapOutcome, MapRequest, MapResult, RequestError, ReturnMap};
 use nalgebra::{DMatrix, DVector};
-use optimize_support::{Closed, Dual, about, expression, margin, problem, solved};
 
 /// A map whose measure 0 is the largest of the first three of a closed form, each taken at a place of its own; the fourth is as it is.
 struct Peaks {
