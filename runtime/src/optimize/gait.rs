@@ -5,9 +5,11 @@ use crate::orbit::{GaitRequest, GaitStatus, find_gait, follow};
 use crate::return_map::{Accuracy, MapOutcome, MapRequest, MapResult, Sensitivity, Stop};
 
 /// Most Newton steps to a gait of which only a guess is known ...
-pub(super) const NEWTON_STEPS: usize = 50;
+const NEWTON_STEPS: usize = 50;
 /// ... and to the next one on the way: more would say that the way is too long.
 const CORRECTIONS: usize = 10;
+/// Most maps for a gait at a place that is only tried because others had none: a search that succeeds takes a few.
+pub(super) const GLANCE: usize = 60;
 
 /// A run is given up when it takes so many times longer than the gait that is followed; more than what a search refuses as another
 /// gait.
@@ -66,21 +68,29 @@ pub(super) fn map(
 
 /// The gait near a guess.
 pub(super) fn near(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
-    let (section, _) = within(problem, parameters, guess, NEWTON_STEPS, problem.settings.accuracy)?;
+    let (section, _) = within(problem, parameters, guess, (NEWTON_STEPS, usize::MAX), problem.settings.accuracy)?;
     Ok(section)
 }
 
-/// The gait near a guess, in so many Newton steps from each of its starts, and its duration (s).
+/// The gait near a guess if it shows soon; for places that are tried because others had none.
+pub(super) fn at_a_glance(problem: &Problem<'_>, parameters: &[f64], guess: &[f64]) -> Result<Vec<f64>, NoGait> {
+    let limits = (NEWTON_STEPS, GLANCE.saturating_mul(problem.period));
+    let (section, _) = within(problem, parameters, guess, limits, problem.settings.accuracy)?;
+    Ok(section)
+}
+
+/// The gait near a guess, in so many Newton steps from each of its starts and so many maps in all, and its duration (s).
 fn within(
     problem: &Problem<'_>,
     parameters: &[f64],
     guess: &[f64],
-    steps: usize,
+    (iteration_limit, map_limit): (usize, usize),
     accuracy: Accuracy,
 ) -> Result<(Vec<f64>, f64), NoGait> {
     let request = GaitRequest {
         period: problem.period,
-        iteration_limit: steps,
+        iteration_limit,
+        map_limit,
         accuracy,
         measures: false,
         tolerance: f64::max(1e-10, 10.0 * problem.settings.accuracy.relative),
@@ -124,7 +134,7 @@ pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Res
         if problem.settings.interrupt.requested() {
             return Err(NoGait::Interrupted);
         }
-        let (section, duration) = within(problem, parameters, guess, CORRECTIONS, patient(accuracy, longest))?;
+        let (section, duration) = within(problem, parameters, guess, (CORRECTIONS, usize::MAX), patient(accuracy, longest))?;
         longest = longest.max(duration);
         Ok(section)
     };

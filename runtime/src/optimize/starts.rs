@@ -47,7 +47,7 @@ pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, 
             return None;
         }
         let parameters = spread(problem, parameters, number);
-        let section = gait::near(problem, &parameters, &problem.start).ok()?;
+        let section = gait::at_a_glance(problem, &parameters, &problem.start).ok()?;
         Some(Start { parameters, section })
     });
     found.ok_or(if problem.settings.interrupt.requested() { NoGait::Interrupted } else { failure })
@@ -55,7 +55,7 @@ pub(super) fn first(problem: &Problem<'_>, parameters: &[f64]) -> Result<Start, 
 
 /// How many other parameter sets are tried: fewer where a gait takes many maps, so that the work stays bounded.
 pub(super) fn rescues(problem: &Problem<'_>) -> usize {
-    let each = gait::NEWTON_STEPS.saturating_mul(problem.period);
+    let each = gait::GLANCE.saturating_mul(problem.period);
     (problem.settings.work / each.max(1)).clamp(1, RESCUES)
 }
 
