@@ -14,7 +14,7 @@ const LONGER: usize = 10;
 const SHORT: usize = 300;
 /// Most maps of a search from the start. One that succeeds takes a few; one that fails might go on and on.
 const SEARCH: usize = 60;
-/// Most maps on the way from the reference parameters.
+/// Most maps on the way from the reference parameters, and of the search for the gait there.
 const WAY: usize = 300;
 
 /// What is the same at all points.
@@ -38,7 +38,7 @@ impl Reference {
         // A map that is integrated more coarsely is no smoother than its tolerance: nor can its fixed point be.
         let tolerance = request.tolerance.max(10.0 * self.accuracy.relative);
         let (period, accuracy) = (self.period, self.accuracy);
-        GaitRequest { period, accuracy, tolerance, map_limit: SEARCH * period, ..request }
+        GaitRequest { period, accuracy, tolerance, map_limit: SEARCH.saturating_mul(period), ..request }
     }
 }
 
@@ -67,7 +67,9 @@ impl<'a> Gaits<'a> {
     /// # Errors
     /// When the request is wrong, as [`find_gait`] says.
     pub fn new(map: &'a dyn ReturnMap, reference: Reference) -> Result<Self, RequestError> {
-        let request = GaitRequest { measures: false, ..reference.request(&reference.parameters) };
+        // Much hangs on this one: it may take longer.
+        let map_limit = WAY.saturating_mul(reference.period);
+        let request = GaitRequest { measures: false, map_limit, ..reference.request(&reference.parameters) };
         let found = find_gait(map, &request, &reference.start)?;
         let origin = found.gait.filter(|_| found.status == GaitStatus::Converged);
         let steps = origin.as_ref().map_or(0, steps);
@@ -110,7 +112,7 @@ impl<'a> Gaits<'a> {
             if self.reference.accuracy.interrupt.requested() {
                 return Err(Lost::NoWay);
             }
-            if maps >= WAY * period {
+            if maps >= WAY.saturating_mul(period) {
                 return Err(Lost::TooFar);
             }
             let request = self.reference.request(parameters);
@@ -118,7 +120,7 @@ impl<'a> Gaits<'a> {
             let request = GaitRequest {
                 measures: false,
                 iteration_limit: CORRECTIONS,
-                map_limit: CORRECTION * period,
+                map_limit: CORRECTION.saturating_mul(period),
                 accuracy: Accuracy { step_limit, ..request.accuracy },
                 ..request
             };
