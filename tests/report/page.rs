@@ -205,7 +205,7 @@ fn wrong_requests_are_refused_and_a_model_without_a_gait_gets_its_page() {
     let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     for (args, says) in [
         (&["report", "prescribed_length", "--out", &place("page.pdf")][..], ".html"),
-        (&["report", "prescribed_length", "--out", &place("none/page.html")], "folder that exists"),
+        (&["report", "prescribed_length", "--out", &place("none/page.html")], "make the folder first"),
         (&["report", "prescribed_length", "--out", &place("page.html"), "--steps", "0"], "from 1 to"),
         (&["report", "prescribed_length", "--out", &place("page.html"), "--steps", "100000000"], "from 1 to"),
         (&["report", "prescribed_lenght", "--out", &place("page.html")], "did you mean `prescribed_length`"),

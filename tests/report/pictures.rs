@@ -41,7 +41,7 @@ fn files_that_are_no_pictures_are_refused() {
     for (file, says) in [
         (place("map.pdf"), "end the name in `.svg` or `.png`"),
         (place("map"), "end the name in `.svg` or `.png`"),
-        (place("none/map.svg"), "folder that exists"),
+        (place("none/map.svg"), "make the folder first"),
     ] {
         let (code, _, errors) = text(&["gait", "rimless_wheel", "--plot-map", &file]);
         assert_eq!(code, 1, "{file}: {errors}");

@@ -246,7 +246,7 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["prescribed_length", "--method", "radau3"], &["radau3"]),
     (&["self_exciting", "--method", "explicit"], &["mass matrix"]),
     (&["prescribed_length", "--out", "run.txt"], &["--out", ".csv"]),
-    (&["prescribed_length", "--out", "/nonexistent/run.csv"], &["--out /nonexistent/run.csv", "help"]),
+    (&["prescribed_length", "--out", "/nonexistent/run.csv"], &["--out: cannot write `/nonexistent/run.csv`", "help"]),
     (&["prescribed_length", "--out", "a.csv", "--events", "a.csv"], &["name the same file"]),
     (&["prescribed_length", "--out", "a.csv", "--events", "./a.csv"], &["name the same file"]),
     (&["prescribed_length", "--plot", "run.gif"], &["--plot", ".svg"]),
