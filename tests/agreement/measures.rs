@@ -51,7 +51,8 @@ impl<'a> Step<'a> {
         let steps = self.run.events.iter().filter(|event| event.time > 0.0).count();
         if self.run.segments.len() > steps && self.run.events.last().is_some_and(|last| last.time == self.run.time) {
             // Both sides of the last transition are samples.
-            (t.pop(), v.pop());
+            t.pop();
+            v.pop();
         }
         let integral: f64 = t.windows(2).zip(v.windows(2)).map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum();
         let unit = observation.unit;
