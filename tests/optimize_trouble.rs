@@ -281,8 +281,8 @@ fn conflicts_of_trade_offs_are_in_units() {
     assert!(code == 2 && message.contains("`peak_force` is at least ") && message.contains(" N "), "{value:#}");
 }
 
-/// The largest push and the largest pull of the leg compete: the smallest of the larger one is where they are equal. Found again by a
-/// golden section over gaits, which knows no derivative.
+/// The leg force is largest where a step begins or where it ends: the smallest of the larger one is where both are equal. Found again
+/// by a golden section over gaits, which knows no derivative.
 #[test]
 fn an_extremum_whose_place_jumps_is_minimised() {
     let at_rate = ["--set", "omega=10 rad/s"];

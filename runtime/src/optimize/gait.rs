@@ -134,7 +134,8 @@ pub(super) fn follow_far(problem: &Problem<'_>, from: &Start, to: &[f64]) -> Res
         if problem.settings.interrupt.requested() {
             return Err(NoGait::Interrupted);
         }
-        let (section, duration) = within(problem, parameters, guess, (CORRECTIONS, usize::MAX), patient(accuracy, longest))?;
+        let (section, duration) =
+            within(problem, parameters, guess, (CORRECTIONS, usize::MAX), patient(accuracy, longest))?;
         longest = longest.max(duration);
         Ok(section)
     };

@@ -152,16 +152,13 @@ fn without_the_places_a_search_stalls_at_the_kink() {
 #[test]
 fn a_bound_on_a_maximum_that_is_taken_at_two_places() {
     let map = peaks(true);
-    let bounded = |bound: f64, start: [f64; 2]| {
+    type Below = fn(&[Dual], &[Dual]) -> Dual;
+    let bounded = |below: Below, start: [f64; 2]| {
         let mut problem = asked(&map, Sense::Maximize, start);
-        let name = format!("peak <= {bound}");
-        problem.constraints.push(match bound {
-            b if b == 1.0 => margin(&name, |m, _| -m[0] + 1.0),
-            b if b > 1.0 => margin(&name, |m, _| -m[0] + 1.001),
-            _ => margin(&name, |m, _| -m[0] + 0.999),
-        });
+        problem.constraints.push(margin("peak", below));
         optimum(&problem)
     };
+    let (tight, loose): (Below, Below) = (|m, _| -m[0] + 0.999, |m, _| -m[0] + 1.001);
     // Brute force: the largest measure on a fine fan of rays out of the smallest maximum, each followed to the bound.
     let along = |x: f64| golden(&|y| at(&map, x, y)[0], -1.0, 3.0);
     let (x0, _) = golden(&|x| along(x).1, -1.0, 3.0);
@@ -179,9 +176,9 @@ fn a_bound_on_a_maximum_that_is_taken_at_two_places() {
     let centre = turn * f64::from(best);
     let most = -golden(&|angle| -reached(angle), centre - turn, centre + turn).1;
     for start in STARTS {
-        let solution = bounded(1.0, start);
+        let solution = bounded(|m, _| -m[0] + 1.0, start);
         assert_relative_eq!(solution.objective, most, max_relative = 1e-7);
-        let price = (bounded(1.1, start).objective - bounded(0.9, start).objective) / 0.002;
+        let price = (bounded(loose, start).objective - bounded(tight, start).objective) / 0.002;
         assert_relative_eq!(solution.active[0].multiplier, price, max_relative = 1e-4);
     }
 }
