@@ -1,6 +1,6 @@
 //! How a search for a gait ended, in words.
 
-use super::newton::{GaitRequest, GaitStatus};
+use super::gait::{GaitRequest, GaitStatus};
 use crate::model::ModelInfo;
 use crate::return_map::StopReason;
 

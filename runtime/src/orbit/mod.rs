@@ -4,12 +4,14 @@
 //! them are smaller than 1 in magnitude.
 
 pub(crate) mod follow;
+mod gait;
 mod message;
 mod multiple;
 mod multipliers;
 mod newton;
 mod shooting;
 
+pub use gait::{Gait, GaitOutcome, GaitRequest, GaitStatus};
 pub use message::why;
 pub use multipliers::{multipliers, spectral_radius};
-pub use newton::{Gait, GaitOutcome, GaitRequest, GaitStatus, find_gait};
+pub use newton::find_gait;

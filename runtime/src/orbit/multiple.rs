@@ -1,7 +1,8 @@
 //! The search for a gait by multiple shooting: plans, their pieces, and what is reported.
 
+use super::gait::GaitOutcome;
 use super::multipliers::{multipliers, spectral_radius};
-use super::newton::{GaitOutcome, Search};
+use super::newton::Search;
 use super::shooting::{Shot, shoot};
 use crate::return_map::{MapOutcome, RequestError, Sensitivity};
 
