@@ -51,7 +51,7 @@ fn pictures_and_pages_are_made_again_from_themselves() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     for (arguments, flag, ending) in [
-        (&["compare", "prescribed_length"][..], "--plot", "svg"),
+        (&["compare", "self_exciting"][..], "--plot", "svg"),
         (&["report", "bouncing_ball", "--set", "e=50 %"], "--out", "html"),
         (&["simulate", "bouncing_ball", "--steps", "2", "--set", "g=5 m/s^2"], "--plot", "png"),
         (&["gait", "bouncing_ball"], "--plot-map", "svg"),
