@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may fail loudly
 
+mod common;
 mod maps;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+use common::json;
 use maps::{Machine, differences, rk4};
 use std::f64::consts::PI;
 
@@ -69,4 +71,14 @@ fn the_gait_is_stable_and_passes_through_both_modes() {
         let taken: Vec<_> = gait.map.events.iter().map(|e| e.transition).collect();
         assert_eq!(taken, [0, 1]);
     }
+}
+
+#[test]
+fn no_leg_pulls_in_flight() {
+    let (code, answer) = json(&["simulate", "fg_template", "--gait", "--steps", "1", "--show", "leg_force"]);
+    assert_eq!(code, 0, "{answer:#}");
+    let list = |path: &str| answer.pointer(path).unwrap().as_array().unwrap().clone();
+    let (modes, forces) = (list("/samples/mode"), list("/samples/observed/leg_force"));
+    let flying: Vec<_> = modes.iter().zip(&forces).filter(|(mode, _)| *mode == "flight").collect();
+    assert!(!flying.is_empty() && flying.iter().all(|(_, force)| force.as_f64() == Some(0.0)), "{flying:?}");
 }

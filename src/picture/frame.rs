@@ -144,7 +144,8 @@ impl Frame {
         canvas.label((x, y), "nothing to draw", TEXT, Anchor::Middle, Ink::Muted);
     }
 
-    /// Text beside a marked place: where it stays within the frame and covers as few of the places as can be.
+    /// Text beside a marked place: where it stays within the frame and covers as few of the places as can be. A line leads to one that
+    /// had to go far.
     pub(super) fn note(&self, canvas: &mut Canvas, at: Place, text: &str, others: &[Place]) {
         let Sides { left, right, top, bottom } = self.sides;
         let text = font::fitted(text, SMALL, 0.8 * (right - left));
@@ -162,8 +163,18 @@ impl Frame {
             others.iter().filter(within).count() + if outside { 1_000_000 } else { 0 }
         };
         if let Some(corner) = corners.min_by_key(covers) {
+            lead(canvas, at, corner, width);
             canvas.label(corner, &text, SMALL, Anchor::Start, Ink::Text);
         }
+    }
+}
+
+/// A line from a marked place to the text that belongs to it, where the two are so far apart that no one would see that it does.
+fn lead(canvas: &mut Canvas, at: Place, (x, baseline): Place, width: f64) {
+    let edge = if baseline > at.1 { baseline - SMALL } else { baseline + 4.0 };
+    if (edge - at.1).abs() > 2.0 * SMALL {
+        let end = (at.0.clamp(x, x + width), edge);
+        canvas.line(vec![at, end], palette::thin(Ink::Muted, &[]));
     }
 }
 
